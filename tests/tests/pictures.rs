@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 /// The picture with the same colors as all EXR files and some others.
 const COLORS: &str = "doubles.npy";
 
-/// The TIFF files and those of formats that are only read show the codes of this one, or its light divided.
+/// The picture whose codes the TIFF files and the files in formats that are only read contain, or whose light they contain
+/// divided.
 const CODES: &str = "plain.tif";
 
 fn seed(name: &str) -> PathBuf {
@@ -72,7 +73,7 @@ fn formats_without_loss_have_the_same_codes() {
         ("rgb.bmp", CODES),
         ("rgb.tga", CODES),
         ("rgb.ppm", CODES),
-        // And these the same alpha.
+        // These have the same alpha.
         ("alpha.pam", "alpha.tif"),
         ("rle.tga", "alpha.tif"),
         ("bits.pbm", "bits.bmp"),
@@ -87,11 +88,11 @@ fn formats_with_loss_are_near() {
     for (one, other, tolerance, less) in [
         ("cmyk.jpg", CODES, "5e-2", "4e-2"),
         ("progressive.jpg", "grey.pgm", "2e-2", "1e-3"),
-        // Colors of neighbors are mixed.
+        // These formats mix the colors of neighbors.
         ("rgb.jpg", CODES, "0.5", "0.4"),
         ("lossy.webp", CODES, "0.6", "0.5"),
         ("loop.webp", CODES, "0.6", "0.5"),
-        // Three numbers of 8 bit share a power of two, of light up to 4.
+        // Three numbers with 8 bits share a power of two; light is up to 4.
         ("rle.hdr", "float.tif", "1.6e-2", "1e-3"),
     ] {
         assert_eq!(compare(one, other, tolerance), 0, "{one}");

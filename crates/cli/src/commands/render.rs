@@ -231,7 +231,7 @@ fn check_view(
     scene::warn(&warnings, &request.scene_path, &arguments.options, console)
 }
 
-/// The warning about an animation that players show more slowly than it is meant.
+/// The warning about an animation that is too fast for players.
 fn too_fast(request: &Request) -> Option<String> {
     let Encoding::Animation(format, _) = request.encoding else {
         return None;
@@ -240,7 +240,7 @@ fn too_fast(request: &Request) -> Option<String> {
     (rate > most && request.frames.count() > 1).then(|| {
         let path = request.pattern.path(request.frames.first());
         format!(
-            "{}: players show at most {most:.0} frames per second, and not {rate}",
+            "{}: players show at most {most:.0} frames per second, but this loop has {rate}",
             path.shown()
         )
     })
@@ -338,7 +338,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         }
     }
     if arguments.exposure.is_some() && arguments.float {
-        let message = "--exposure is for numbers that end at white, and --float has larger ones";
+        let message = "--exposure is for codes, but --float writes the light itself";
         return Err(Failure::Usage(message.to_owned()));
     }
     if arguments.linear && arguments.bits == Some(8) {

@@ -7,15 +7,15 @@ pub(super) trait Animation {
     /// Adds rows of the picture, from the top.
     fn add_samples(&mut self, samples: &[u8]) -> Result<(), Fault>;
 
-    /// Ends the picture, all of whose rows were added.
+    /// Ends the picture when all of its rows have been added.
     fn end_frame(&mut self) -> Result<(), Fault>;
 
     /// Ends the file.
     fn finish(self: Box<Self>) -> Result<(), Fault>;
 }
 
-/// The time for which the picture with this index is shown, in units of which there are so many in a second, and at least
-/// `shortest`: the pictures begin when they should, to half a unit.
+/// The time for which the picture with this index is shown, at least `shortest`. `units` is the number of units of time per
+/// second. Each picture begins at the right time, to half a unit.
 pub(super) fn duration(index: u32, rate: f64, units: f64, shortest: u32) -> u32 {
     let start = |index: f64| (index * units / rate).round();
     let exact = start(f64::from(index) + 1.0) - start(f64::from(index));

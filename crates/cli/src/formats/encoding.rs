@@ -13,7 +13,7 @@ pub(crate) enum Format {
     Tiff,
 }
 
-/// A format whose files have all frames of a sequence, which are shown in a loop.
+/// A format for all frames of a sequence in one file, which plays in a loop.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum AnimationFormat {
     /// Animated PNG.
@@ -59,7 +59,7 @@ pub(crate) enum Encoding {
 }
 
 impl Encoding {
-    /// Returns whether files have codes, the largest of which stands for white and all brighter light.
+    /// Returns whether files contain codes. The largest code stands for white and all brighter light.
     pub(crate) fn has_white(self) -> bool {
         match self {
             Self::Png(_) | Self::Animation(..) => true,
@@ -98,13 +98,13 @@ pub(crate) struct NpyOptions {
     pub(crate) error: bool,
 }
 
-/// The way in which a TIFF file is written.
+/// The settings for writing a TIFF file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TiffOptions {
-    /// Single precision instead of 16 bit in proportion to light.
+    /// Light in single precision instead of linear codes with 16 bits.
     pub(crate) float: bool,
-    /// Three channels for pictures without color as well.
+    /// Three channels even for gray pictures.
     pub(crate) rgb: bool,
-    /// The factor by which light is multiplied before it becomes codes of 16 bit; above 0.
+    /// The factor by which light is multiplied before it is converted to codes with 16 bits; above 0.
     pub(crate) gain: f64,
 }

@@ -1,4 +1,4 @@
-//! Loads pictures in any format. The format is recognized by the first bytes, not by the name.
+//! Loads pictures in any format. The format is recognized by the first bytes; only TGA is recognized by the name.
 
 use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read};
@@ -23,7 +23,7 @@ enum Readable {
     Other(Other),
 }
 
-/// The first bytes of files. A WebP has a number of four bytes in its middle.
+/// The first bytes of files. A WebP is not among them, because it has a number between its constant bytes.
 const STARTS: [(&[u8], Readable); 19] = [
     (b"\x89PNG\r\n\x1a\n", Readable::Png),
     (EXR_MAGIC, Readable::Exr),
@@ -49,13 +49,13 @@ const STARTS: [(&[u8], Readable); 19] = [
 const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 /// The first bytes of every NPY.
 const NPY_MAGIC: &[u8] = b"\x93NUM";
-/// The bytes by which formats are known.
+/// The number of bytes from which the format is recognized.
 const START_BYTES: usize = 12;
 
-/// Returns whether the file at `path` begins as a picture does, or has the name of one.
+/// Returns whether the file at `path` begins like a picture, or has the name of a TGA.
 pub(crate) fn is_picture(path: &Path) -> bool {
     let start = || {
-        // Of a pipe the start could be read only once.
+        // The start of a pipe could be read only once.
         path.is_file().then_some(())?;
         let mut start = Vec::new();
         let file = File::open(path).ok()?.take(START_BYTES as u64);

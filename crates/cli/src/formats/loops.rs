@@ -7,10 +7,10 @@ use super::{gif, png, webp};
 use crate::files::save::Fault;
 use crate::files::temporary::TemporaryFile;
 
-/// Frames per second where nothing is known, as in scene files.
+/// Frames per second if the rate is unknown, as in scene files.
 const FRAMES_PER_SECOND: f64 = 24.0;
 
-/// Begins a file of so many pictures, which are shown at this rate.
+/// Begins a file with this number of pictures, which are shown at this rate.
 pub(super) fn begin(
     format: AnimationFormat,
     file: &mut TemporaryFile,
@@ -36,7 +36,7 @@ pub(super) fn begin(
     })
 }
 
-/// The highest rate at which players show the pictures of a file, where there is one.
+/// The highest rate at which players show the pictures of a file, if there is a limit.
 pub(crate) fn most_frames_per_second(format: AnimationFormat) -> Option<f64> {
     match format {
         AnimationFormat::Apng => None,

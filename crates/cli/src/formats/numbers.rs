@@ -1,4 +1,4 @@
-//! Pictures whose files hold codes or light, channel by channel, pixel by pixel: what their numbers mean.
+//! The meaning of the numbers in files that store codes or light pixel by pixel.
 
 use super::picture::{Picture, Samples};
 use super::png::curve::Curve;
@@ -6,7 +6,7 @@ use crate::base::size::Size;
 
 /// The rows of a file, from the top downward.
 pub(super) trait RowSource {
-    /// Puts the numbers of the next row, of all channels of all pixels, in place of others. There must be one.
+    /// Replaces the contents of `row` by the numbers of the next row: all channels of all pixels. There must be a next row.
     fn next(&mut self, row: &mut Vec<f64>) -> Result<(), String>;
 }
 
@@ -15,21 +15,21 @@ pub(super) trait RowSource {
 pub(super) struct Meaning {
     /// The number of channels of color, 1 or 3.
     pub(super) colors: usize,
-    /// Whether there is a channel of alpha after them.
+    /// Whether an alpha channel follows them.
     pub(super) alpha: bool,
     /// Whether colors are multiplied by alpha.
     pub(super) is_premultiplied: bool,
     pub(super) coding: Coding,
 }
 
-/// The way in which numbers stand for light.
+/// The relation between numbers and light.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Coding {
-    /// Whole numbers, the largest of which stands for white.
+    /// Integers. The largest one, `most`, stands for white.
     Codes { curve: Curve, most: f64 },
-    /// Floats of so many bits, which are light.
+    /// Floats with this number of bits, which are light.
     Floats { bits: u8 },
-    /// The light of a Radiance picture: three numbers of 8 bit that share a power of two.
+    /// The light of a Radiance picture: three numbers with 8 bits that share a power of two.
     SharedExponent,
 }
 
@@ -38,15 +38,15 @@ pub(super) struct Numbers {
     meaning: Meaning,
     rows: Box<dyn RowSource>,
     row: Vec<f64>,
-    /// The light of each code, and that half a step above it, where there are few codes.
+    /// The light of each code, and that half a step above it. Empty if there are many codes.
     light: Vec<[f64; 2]>,
 }
 
-/// The number of codes whose light is computed once.
+/// The largest code of pictures for which the light of all codes is computed in advance.
 const MOST_IN_TABLE: f64 = u16::MAX as f64;
 
 impl Numbers {
-    /// The picture of a file in the format `name`; `kind` says of which kind its numbers are.
+    /// The picture of a file in the format `name`; `kind` describes its numbers.
     pub(super) fn picture(
         name: &'static str,
         kind: &str,
@@ -86,7 +86,7 @@ impl Numbers {
         }
     }
 
-    /// The numbers of a pixel: grey in all three colors, and `None` where there is no alpha.
+    /// The numbers of a pixel: the same number for all three colors if the picture is gray, and `None` if it has no alpha.
     fn numbers(&self, col: u32) -> ([f64; 3], Option<f64>) {
         let Meaning { colors, alpha, .. } = self.meaning;
         let channels = colors + usize::from(alpha);
@@ -98,7 +98,7 @@ impl Numbers {
         (color, alpha.then(|| pixel[colors]))
     }
 
-    /// The light of a number, and that of one half a step above it.
+    /// The light of a number, and that of a number half a step above it.
     fn light(&self, number: f64) -> [f64; 2] {
         let known = self.light.get(number as usize);
         known
@@ -106,7 +106,7 @@ impl Numbers {
             .unwrap_or_else(|| light_of(self.meaning.coding, number))
     }
 
-    /// Alpha from 0 to 1, and half a step of it.
+    /// Alpha from 0 to 1, and half of its step.
     fn alpha(&self, number: Option<f64>) -> [f64; 2] {
         match (number, self.meaning.coding) {
             (None, _) => [1.0, 0.0],
@@ -115,7 +115,7 @@ impl Numbers {
         }
     }
 
-    /// The light of a pixel's colors, and that which they have half a step above, both premultiplied.
+    /// The light of a pixel's colors, and the light half a step above, both premultiplied.
     fn colors(&self, col: u32) -> [[f64; 2]; 3] {
         let (color, alpha) = self.numbers(col);
         let [alpha, step] = self.alpha(alpha);
@@ -131,7 +131,7 @@ impl Numbers {
             } else if is_linear || alpha == 0.0 {
                 self.light(number)
             } else {
-                // The codes were multiplied, and not the light.
+                // The file multiplies codes, not light, by alpha.
                 let [light, light_above] = light_of(self.meaning.coding, number / alpha);
                 [light * alpha, light_above * above]
             }
@@ -139,7 +139,7 @@ impl Numbers {
     }
 }
 
-/// The light of a number, and that of one half a step above it.
+/// The light of a number, and that of a number half a step above it.
 fn light_of(coding: Coding, number: f64) -> [f64; 2] {
     match coding {
         Coding::Codes { curve, most } => {
@@ -150,11 +150,11 @@ fn light_of(coding: Coding, number: f64) -> [f64; 2] {
     }
 }
 
-/// The distance from a float of so many bits to the next larger one of its kind.
+/// The distance from a float with this number of bits to the next larger one.
 fn step(number: f64, bits: u8) -> f64 {
     /// Bits of the mantissa of a half.
     const HALF_DIGITS: i32 = 10;
-    /// The exponent of the least half that is not subnormal.
+    /// The exponent of the smallest half that is not subnormal.
     const LEAST_HALF_EXPONENT: i32 = -14;
     let size = number.abs();
     if !size.is_finite() {
@@ -169,12 +169,12 @@ fn step(number: f64, bits: u8) -> f64 {
             let float = size as f32;
             f64::from(float.next_up()) - f64::from(float)
         }
-        // Doubles hold what was computed.
+        // Doubles store the computed values without rounding.
         _ => 0.0,
     }
 }
 
-/// The step of a pixel of a Radiance picture: a part in 256 of the power of two above its largest color.
+/// The step of a pixel of a Radiance picture: 1/256 of the power of two above its largest color.
 fn shared_step(color: [f64; 3]) -> f64 {
     const DIGITS: i32 = 8;
     let largest = color.into_iter().fold(0.0, f64::max);
@@ -200,7 +200,7 @@ impl Samples for Numbers {
         let (color, alpha) = self.numbers(col);
         let [_, step] = self.alpha(alpha);
         let [red, green, blue] = match self.meaning.coding {
-            // Many programs cut off instead of rounding.
+            // Many programs truncate instead of rounding.
             Coding::SharedExponent => [shared_step(color); 3],
             _ => self.colors(col).map(|[light, above]| above - light),
         };

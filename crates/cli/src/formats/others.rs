@@ -1,6 +1,6 @@
-//! Pictures of other programs, which the crate `image` decodes: JPEG, GIF, WebP, Radiance, PNM, TGA, BMP and QOI.
+//! Pictures of other programs, decoded by the crate `image`: JPEG, GIF, WebP, Radiance, PNM, TGA, BMP and QOI.
 //!
-//! Its decoders give a picture as a whole, so that there is a limit of its size.
+//! The decoders return a picture as a whole, so its size is limited.
 
 use std::io::{Read, Seek, SeekFrom};
 
@@ -38,19 +38,19 @@ pub(super) enum Other {
     Qoi,
 }
 
-/// Bytes of the samples of a picture, and of the memory that its decoder may ask for.
+/// The largest number of bytes that the samples of a picture may take, and that its decoder may allocate.
 const MOST_BYTES: u64 = 1 << 27;
-/// Bytes of its file, which some decoders read as a whole.
+/// The largest number of bytes of a file. Some decoders read files as a whole.
 const MOST_FILE_BYTES: u64 = 1 << 26;
 
-/// A warning about how a file is understood.
+/// A warning about the interpretation of a file.
 type Warning = Option<&'static str>;
 
-const ONE_FRAME: &str = "it is an animation, of which the first frame is read";
-// Pillow says so of all pictures.
+const ONE_FRAME: &str = "it is an animation: only its first frame is read";
+// Pillow marks all QOI files as linear.
 const SAID_TO_BE_LINEAR: &str =
-    "it says that its codes are in proportion to light, as some programs do of sRGB codes";
-const NOT_TURNED: &str = "it asks to be turned, and is read as it is stored";
+    "it says that its codes are linear, but some programs say this of sRGB codes";
+const NOT_TURNED: &str = "it asks to be rotated, but is read as it is stored";
 
 impl Other {
     /// The name of the format.
@@ -67,10 +67,10 @@ impl Other {
         }
     }
 
-    /// The number of pixels of the largest picture.
+    /// The largest number of pixels of a picture.
     fn most_pixels(self) -> u64 {
         match self {
-            // While alpha is added to its colors, 15 bytes of each pixel are in memory.
+            // While the decoder combines colors and alpha, a pixel takes 15 bytes of memory.
             Self::Webp => 12_000_000,
             _ => 1 << 24,
         }
@@ -113,7 +113,7 @@ impl Other {
         })
     }
 
-    /// Decodes a picture whose codes have this curve, unless the file has a profile that says otherwise.
+    /// Decodes a picture whose codes have this curve, unless the file contains a linear profile.
     fn read(
         self,
         mut decoder: impl ImageDecoder,
@@ -224,7 +224,7 @@ impl Depth {
     }
 }
 
-/// A picture that was decoded as a whole.
+/// A picture that is decoded as a whole.
 struct Whole {
     samples: Vec<u8>,
     row_bytes: usize,
@@ -282,7 +282,7 @@ fn curve_of_qoi(file: &mut Box<dyn Input>) -> Curve {
     }
 }
 
-/// The words of a decoder, in our manner.
+/// The message of a decoder, which begins in lower case.
 fn words(error: ImageError) -> String {
     lower(&error.to_string())
 }

@@ -68,7 +68,7 @@ pub(crate) trait Samples: Any {
 }
 
 impl Picture {
-    /// Prints the warning about the file at `path`, where there is one.
+    /// Prints the warning about the file at `path`, if there is one.
     pub(crate) fn warn(&self, path: &Path, console: &Console) {
         if let Some(warning) = self.warning {
             console.warn(&format!("{}: {warning}", path.shown()));

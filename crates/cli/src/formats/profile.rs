@@ -1,14 +1,14 @@
-//! ICC profiles: the one by which a TIFF says that its codes are in proportion to light, and others like it.
+//! ICC profiles for linear codes: marbles writes them into TIFF files, and recognizes them in the files of other programs.
 //!
-//! Source: "Specification ICC.1:2001-04", version 2 of the format, which every reader knows.
+//! Source: "Specification ICC.1:2001-04", version 2 of the format, which every reader supports.
 
-/// Bytes of the header, of the number of tags, and of a tag's entry in the table.
+/// The lengths in bytes of the header, of the number of tags, and of a tag's entry in the table.
 const HEADER_BYTES: usize = 128;
 const COUNT_BYTES: usize = 4;
 const ENTRY_BYTES: usize = 12;
 
-/// The white of the connection space, D50, and the primaries of Rec. 709 adapted to it by the method of Bradford: X, Y and
-/// Z in parts of 65536.
+/// The white of the connection space, D50, and the primaries of Rec. 709 adapted to it with the Bradford method: X, Y and
+/// Z, in multiples of 1/65536.
 const WHITE: [i32; 3] = [63_190, 65_536, 54_061];
 const RED: [i32; 3] = [28_576, 14_581, 912];
 const GREEN: [i32; 3] = [25_239, 46_983, 6_361];
@@ -17,7 +17,7 @@ const BLUE: [i32; 3] = [9_375, 3_972, 46_787];
 /// The name of the profile.
 const NAME: &str = "linear Rec. 709";
 
-/// The profile of linear codes, of three colors or of grey.
+/// The profile for linear codes, with three colors or gray.
 pub(super) fn linear(is_grey: bool) -> Vec<u8> {
     let (space, name): (&[u8; 4], _) = if is_grey {
         (b"GRAY", "linear gray")
@@ -52,7 +52,7 @@ pub(super) fn linear(is_grey: bool) -> Vec<u8> {
     profile
 }
 
-/// The header of a profile of so many bytes, for codes of this space.
+/// The header of a profile with this length in bytes, for codes in this color space.
 fn header(bytes: u32, space: [u8; 4]) -> Vec<u8> {
     let mut header = bytes.to_be_bytes().to_vec();
     header.extend([0; 4]); // no preferred engine
@@ -64,14 +64,14 @@ fn header(bytes: u32, space: [u8; 4]) -> Vec<u8> {
         header.extend(number.to_be_bytes()); // the same date in all files
     }
     header.extend(b"acsp");
-    // Platform, flags, manufacturer, model, attributes and intent: none, and perceptual.
+    // Platform, flags, manufacturer, model and attributes are empty; the intent 0 is perceptual.
     header.extend([0; 28]);
     header.extend(WHITE.iter().flat_map(|number| number.to_be_bytes()));
     header.resize(HEADER_BYTES, 0);
     header
 }
 
-/// A name in the form of version 2: ASCII, and neither Unicode nor a script of the Macintosh.
+/// A name in the form of version 2: ASCII, with empty fields for Unicode and Macintosh scripts.
 fn description(name: &str) -> Vec<u8> {
     let mut bytes = b"desc\0\0\0\0".to_vec();
     bytes.extend((name.len() as u32 + 1).to_be_bytes());
@@ -94,14 +94,14 @@ fn xyz(numbers: [i32; 3]) -> Vec<u8> {
     bytes
 }
 
-/// The curve whose output is its input.
+/// The identity curve.
 fn identity() -> Vec<u8> {
     let mut bytes = b"curv\0\0\0\0".to_vec();
     bytes.extend(0_u32.to_be_bytes());
     bytes
 }
 
-/// Returns whether the codes of a picture with this profile are in proportion to light.
+/// Returns whether the codes of a picture with this profile are linear.
 pub(super) fn is_linear(profile: &[u8]) -> bool {
     let curves: &[[u8; 4]] = match profile.get(16..20) {
         Some(b"GRAY") => &[*b"kTRC"],
@@ -133,7 +133,7 @@ fn is_identity(curve: &[u8]) -> bool {
         (Some(b"curv"), Some([0, 0, 0, 0]), _) => true,
         (Some(b"curv"), Some([0, 0, 0, 1]), Some(power)) => power.starts_with(&POWER_OF_1),
         (Some(b"curv"), Some([0, 0, 0, 2]), Some(table)) => table.starts_with(&[0, 0, 0xff, 0xff]),
-        // A power, of the first kind of formulas: f(x) = x^g.
+        // A power, in the first kind of formula: f(x) = x^g.
         (Some(b"para"), Some([0, 0, _, _]), Some(power)) => power.starts_with(&[0, 1, 0, 0]),
         _ => false,
     }
@@ -151,7 +151,7 @@ mod tests {
             assert_eq!(length as usize, profile.len());
             assert!(is_linear(&profile));
             for length in 0..profile.len() {
-                // The data of the last tag is the last that is read.
+                // The last bytes belong to the data of a tag that is read.
                 assert!(!is_linear(&profile[..length]), "{length}");
             }
         }

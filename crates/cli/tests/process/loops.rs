@@ -1,4 +1,4 @@
-//! Loops in GIF and WebP, as other decoders read them.
+//! Loops in GIF and WebP, read by other decoders.
 
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor};
@@ -27,7 +27,7 @@ fn folder() -> Folder {
     folder
 }
 
-/// Runs a command that has to succeed; returns its messages.
+/// Runs a command that must succeed, and returns its messages.
 fn run(folder: &Folder, arguments: &str) -> String {
     let output = folder.run(arguments);
     assert_eq!(code(&output), 0, "{arguments}: {}", text(&output.stderr));
@@ -37,7 +37,7 @@ fn run(folder: &Folder, arguments: &str) -> String {
 /// A picture: red, green, blue and alpha of each pixel.
 type Picture = Vec<u8>;
 
-/// The picture in a PNG of 8 bit.
+/// The picture in a PNG with 8 bits.
 fn png(folder: &Folder, name: &str) -> Picture {
     let file = BufReader::new(File::open(folder.path(name)).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();
@@ -81,7 +81,7 @@ fn gif(bytes: &[u8]) -> Gif {
     }
 }
 
-/// The pictures of a WebP with their durations in thousandths of a second, and whether they are shown for ever.
+/// The pictures of a WebP with their durations in thousandths of a second, and whether they repeat forever.
 fn webp(bytes: &[u8]) -> (Vec<(Picture, u32)>, bool) {
     let decoder = WebPDecoder::new(Cursor::new(bytes)).unwrap();
     assert!(decoder.has_animation());
@@ -111,7 +111,7 @@ fn a_webp_has_the_pictures_of_the_files() {
         let (pictures, is_for_ever) = webp(&folder.read(&format!("{name}.webp")));
         assert!(is_for_ever);
         let (pictures, durations): (Vec<Picture>, Vec<u32>) = pictures.into_iter().unzip();
-        // 33⅓, so that each picture begins when it should, to half a thousandth of a second.
+        // 33⅓, rounded such that each picture begins at the right time, to half a thousandth of a second.
         assert_eq!(durations, [33, 34, 33, 33, 34, 33, 33]);
         let files = (1..=7).map(|frame| png(&folder, &format!("{name}.{frame}.png")));
         assert!(files.eq(pictures), "{name}");
@@ -149,7 +149,7 @@ fn a_gif_has_the_pictures_of_the_files_in_fewer_colors() {
     assert!(4 * sum < 7 * 41 * 30 * 3, "{sum}");
 }
 
-/// 256 colors are enough for a scene without color.
+/// 256 colors are enough for a gray scene.
 #[test]
 fn a_gif_of_greys_is_exact() {
     let folder = Folder::new();
@@ -162,12 +162,12 @@ fn a_gif_of_greys_is_exact() {
 }
 
 #[test]
-fn a_gif_leaves_out_pixels_of_which_less_than_half_is_covered() {
+fn a_gif_leaves_out_pixels_that_are_less_than_half_covered() {
     let folder = folder();
     run(&folder, "render turn.ron -o a.#.png --alpha");
     run(&folder, "render turn.ron -o a.gif --alpha");
     let found = gif(&folder.read("a.gif"));
-    // Else the picture before would be seen there.
+    // Otherwise the previous picture would be visible there.
     assert_eq!(found.disposal, DisposalMethod::Background);
     let mut partly = 0;
     for (frame, (picture, _)) in (1..).zip(&found.pictures) {
@@ -225,7 +225,8 @@ fn the_bytes_do_not_depend_on_threads() {
 fn more_frames_than_players_show_are_a_warning() {
     let folder = folder();
     let errors = run(&folder, "render turn.ron -o a.gif --fps 60");
-    let warning = "marbles: a.gif: players show at most 50 frames per second, and not 60\n";
+    let warning =
+        "marbles: a.gif: players show at most 50 frames per second, but this loop has 60\n";
     assert_eq!(errors, warning);
     assert!(
         gif(&folder.read("a.gif"))

@@ -18,7 +18,7 @@ const SCENE: &str = "(
 )
 ";
 
-/// A folder with a scene in color, and one without.
+/// A folder with a scene in color and a gray one.
 fn folder() -> Folder {
     let folder = Folder::new();
     fs::write(folder.path("scene.ron"), SCENE).unwrap();
@@ -35,7 +35,7 @@ fn run(folder: &Folder, arguments: &str) -> String {
     text(&output.stdout)
 }
 
-/// The numbers of a file, and how many each pixel has.
+/// The numbers of a file, and the number of channels.
 fn numbers(bytes: &[u8]) -> (DecodingResult, usize) {
     let mut decoder = Decoder::new(Cursor::new(bytes)).unwrap();
     let samples: Option<u16> = decoder.find_tag_unsigned(Tag::SamplesPerPixel).unwrap();
@@ -68,7 +68,7 @@ fn the_numbers_are_those_of_the_npy() {
         run(&folder, &format!("render {scene}.ron -o a.npy {plain}"));
         let expected = npy(&folder.read("a.npy"));
         let stride = if options == "--alpha" { 4 } else { 3 };
-        // Of grey, one of three equal numbers.
+        // A gray picture stores one of three equal numbers.
         let expected = expected.chunks_exact(stride).flat_map(|pixel| {
             let colors = if channels < 3 { 1 } else { 3 };
             pixel[..colors].iter().chain(&pixel[3..]).copied()
@@ -125,19 +125,19 @@ fn options_of_other_formats_are_refused() {
     for (options, message) in [
         (
             "--bits 16",
-            "--bits is for PNG files, and the output is TIFF",
+            "--bits is for PNG files, but the output is TIFF",
         ),
         (
             "--linear",
-            "--linear is for PNG files, and the output is TIFF",
+            "--linear is for PNG files, but the output is TIFF",
         ),
         (
             "--error-channel",
-            "--error-channel is for EXR and NPY files, and the output is TIFF",
+            "--error-channel is for EXR and NPY files, but the output is TIFF",
         ),
         (
             "--float --exposure 1",
-            "--exposure is for numbers that end at white, and --float has larger ones",
+            "--exposure is for codes, but --float writes the light itself",
         ),
     ] {
         let output = folder.run(&format!("render scene.ron -o a.tif {options}"));
@@ -220,7 +220,7 @@ fn compare_reads_it() {
         printed.contains("40 x 37, TIFF, 16 bit linear, RGB"),
         "{printed}"
     );
-    // All that differs by more than half a code is above white.
+    // Only light above white differs by more than half a code.
     let row = |name: &str| {
         let line = printed.lines().find(|line| line.starts_with(name)).unwrap();
         line.split_whitespace().nth(1).unwrap().to_owned()

@@ -1,10 +1,10 @@
-//! Pictures as buffers of the crate `image`, which the feature `image` adds.
+//! Converts pictures to buffers of the crate `image`, with the feature `image`.
 
 use image::{ImageBuffer, Rgba, Rgba32FImage, RgbaImage};
 
 use super::image::Image;
 
-/// The picture as a viewer wants it: the codes of [`Image::to_srgb8`], 8 bit sRGB with straight alpha.
+/// The codes of [`Image::to_srgb8`]: 8-bit sRGB with straight alpha, for viewers.
 ///
 /// ```
 /// use marbles_core::glam::{DVec2, DVec3};
@@ -31,7 +31,7 @@ impl From<&Image> for RgbaImage {
     }
 }
 
-/// Linear light in single precision, with straight alpha: `image` multiplies no colors by it.
+/// Linear light in single precision, with straight alpha, because `image` does not premultiply colors.
 impl From<&Image> for Rgba32FImage {
     fn from(picture: &Image) -> Self {
         ImageBuffer::from_fn(picture.width(), picture.height(), |col, row| {

@@ -22,8 +22,8 @@ Examples:
   marbles render ball.ron --set camera.azimuth=30     another value in the scene
   marbles render ball.ron -o a.npy --error-channel    doubles for NumPy, their errors in a_error.npy
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
-  marbles render turn.ron -o turn.webp                a loop that browsers play; turn.gif and turn.apng, too
-  marbles render ball.ron -o ball.tif                 16 bit TIFF, in proportion to light; --float for floats
+  marbles render turn.ron -o turn.webp                a loop that browsers play; also turn.gif and turn.apng
+  marbles render ball.ron -o ball.tif                 16-bit TIFF, in proportion to light; floats with --float
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 samples per pixel
   marbles render ball.ron -o ball.exr --channels depth,normal,id

@@ -1,4 +1,4 @@
-//! A picture from a file, in the size that a screen has room for.
+//! Loads a picture from a file and scales it to the screen.
 
 use std::ops::Range;
 use std::path::Path;
@@ -14,12 +14,12 @@ use crate::formats::load;
 use crate::formats::picture;
 use crate::terminal::console::Console;
 
-/// Returns whether the file that is to be shown is a picture, and no scene.
+/// Returns whether the file that is to be shown is a picture rather than a scene.
 pub(super) fn is_picture(path: &Path) -> bool {
     load::is_picture(path)
 }
 
-/// The picture in a file, with a warning where it was not understood in full.
+/// Loads the picture in a file, and prints a warning if it is not fully supported.
 pub(super) fn load(
     arguments: &PreviewArguments,
     area: &Area,
@@ -32,7 +32,7 @@ pub(super) fn load(
         (!arguments.options.set.is_empty(), "--set"),
     ] {
         if is_given {
-            let why = format!("{option} is for scenes, and this is a picture");
+            let why = format!("{option} is for scenes, but this is a picture");
             return Err(Failure::unusable(path, &why));
         }
     }
@@ -42,7 +42,7 @@ pub(super) fn load(
     scaled(picture, size).map_err(|reason| Failure::unusable(path, &reason))
 }
 
-/// The picture in another size: the mean of the light in each of its pixels.
+/// The picture in another size. Each pixel is the mean of the light in its area.
 fn scaled(mut picture: picture::Picture, size: Size) -> Result<Picture, String> {
     let from = picture.size;
     let mut light = vec![[0.0; 3]; size.width as usize * size.height as usize];
@@ -67,9 +67,10 @@ fn scaled(mut picture: picture::Picture, size: Size) -> Result<Picture, String> 
     })
 }
 
-/// The pixels that one of `from` pixels in a line covers where the line has `to` pixels, and the share of each.
+/// The pixels that one of `from` pixels in a line overlaps when the same line has `to` pixels, and the share of each that it
+/// covers.
 fn shares(pixel: u32, from: u32, to: u32) -> impl Iterator<Item = (usize, f64)> {
-    // In units of which a pixel of the line before has `to`, and one of the new line `from`.
+    // In units such that an old pixel has the length `to`, and a new one the length `from`.
     let covered = |index: u64, length: u64| index * length..(index + 1) * length;
     let (from, to) = (u64::from(from), u64::from(to));
     let own = covered(pixel.into(), to);

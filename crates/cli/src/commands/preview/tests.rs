@@ -107,7 +107,7 @@ fn pictures_are_shown_as_scenes_are() {
     let scene = scene.to_str().unwrap();
     let (code, of_scene, _) = run_here(&["preview", scene, "--tolerance", "1e-4"]);
     assert_eq!(code, 0);
-    // As many pixels as the text has, and twice as many, whose means are the same.
+    // One pixel of the picture for each pixel of the text, or two by two, whose mean is the same.
     let lines = of_scene.lines().count() as u32;
     for (ending, factor, most) in [("png", 1, 0), ("webp", 1, 0), ("tif", 2, 3), ("npy", 2, 3)] {
         let picture = temporary(&format!("preview_of_picture.{ending}"));
@@ -138,14 +138,14 @@ fn pictures_are_shown_as_scenes_are() {
             let (code, _, err) = run_here(&["preview", picture, option]);
             assert_eq!(code, 2);
             assert!(
-                err.contains(" is for scenes, and this is a picture\n"),
+                err.contains(" is for scenes, but this is a picture\n"),
                 "{err}"
             );
         }
     }
 }
 
-/// The numbers in a text, of which those of colors are the only ones that may differ.
+/// The numbers in a text. Only the numbers of colors may differ.
 fn codes(text: &str) -> Vec<u32> {
     let numbers = text.split(|letter: char| !letter.is_ascii_digit());
     numbers.filter_map(|number| number.parse().ok()).collect()

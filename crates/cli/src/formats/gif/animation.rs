@@ -1,5 +1,5 @@
-//! GIF files: all pictures have one palette, so that what stands still has the same colors in all of them. They wait for it
-//! in a temporary file.
+//! Writes GIF files. All pictures share one palette, so that parts that do not move keep their colors. Until the palette is
+//! known, the pictures are kept in a temporary file.
 //!
 //! Source: "Graphics Interchange Format, Version 89a", CompuServe.
 
@@ -21,15 +21,15 @@ use crate::formats::png::shape::Shape;
 const COLORS: usize = 256;
 /// Durations count hundredths of a second.
 const UNITS: f64 = 100.0;
-/// The shortest duration: browsers show a picture of 0 or 1 for a tenth of a second.
+/// The shortest duration. Browsers show a picture with a duration of 0 or 1 for a tenth of a second.
 const SHORTEST: u32 = 2;
-/// The least alpha of a pixel that is not left out.
+/// The smallest alpha of a pixel that is not transparent.
 const HALF: u8 = 128;
 
 /// The rate at which all pictures have the shortest duration.
 pub(in crate::formats) const MOST_FRAMES_PER_SECOND: f64 = UNITS / SHORTEST as f64;
 
-/// Bytes that are read and written at a time.
+/// The number of bytes that are read or written together.
 const BUFFER_BYTES: usize = 1 << 18;
 
 /// A file that is being written.
@@ -44,7 +44,7 @@ pub(in crate::formats) struct Animation<W: Write> {
 }
 
 impl<W: Write> Animation<W> {
-    /// Begins a file of pictures that are shown at this rate, and wait for their colors in another.
+    /// Begins a file with pictures that are shown at this rate. They are kept in `pictures` until the palette is known.
     pub(in crate::formats) fn begin(
         file: W,
         pictures: TemporaryFile,
@@ -69,7 +69,7 @@ impl<W: Write> Animation<W> {
     }
 }
 
-/// The number of colors for pixels that are not left out.
+/// The number of colors for pixels that are not transparent.
 fn colors(shape: Shape) -> usize {
     if has_alpha(shape) { COLORS - 1 } else { COLORS }
 }
@@ -78,7 +78,7 @@ fn has_alpha(shape: Shape) -> bool {
     shape.channels().is_multiple_of(2)
 }
 
-/// The color of a pixel; `None` where it is left out.
+/// The color of a pixel, or `None` if it is transparent.
 fn color(pixel: &[u8]) -> Option<Color> {
     match *pixel {
         [grey] => Some([grey; 3]),
@@ -92,7 +92,7 @@ fn color(pixel: &[u8]) -> Option<Color> {
 impl<W: Write> animation::Animation for Animation<W> {
     fn add_samples(&mut self, samples: &[u8]) -> Result<(), Fault> {
         self.pictures.write_all(samples)?;
-        // Many neighbors are alike.
+        // Many neighbors are equal.
         let mut run: Option<(Color, u64)> = None;
         for color in samples
             .chunks_exact(self.shape.channels())
@@ -165,7 +165,7 @@ impl<W: Write> animation::Animation for Animation<W> {
             };
             encoder.write_frame(&Frame {
                 delay: u16::try_from(shown).unwrap_or(u16::MAX),
-                // What is left out shall not show the picture before.
+                // Transparent pixels must not show the previous picture.
                 dispose: match transparent {
                     Some(_) => DisposalMethod::Background,
                     None => DisposalMethod::Keep,

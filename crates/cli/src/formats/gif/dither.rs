@@ -1,6 +1,6 @@
-//! Colors that are not in the palette, as patterns of two that are.
+//! Dithering: a color that is not in the palette is replaced by a pattern of two colors that are.
 //!
-//! A pixel's place alone decides between the two, so that what stands still does not flicker.
+//! Only the position of a pixel decides between the two, so that parts that do not move do not flicker.
 //!
 //! Source: B. Bayer, "An optimum method for two-level rendition of continuous-tone pictures", 1973, for the pattern.
 
@@ -11,23 +11,23 @@ use super::palette::nearest;
 
 /// The side of the pattern.
 const SIDE: usize = 8;
-/// The number of its places.
+/// The number of its positions.
 const PLACES: f64 = (SIDE * SIDE) as f64;
 
-/// Colors for which the pair is remembered; then it is found anew.
+/// The largest number of colors whose pair is stored. If there are more, all stored pairs are dropped.
 const MOST_KNOWN: usize = 1 << 20;
 
-/// The palette, and what stands for the colors that were looked for.
+/// The palette, and the pairs that were computed.
 pub(super) struct Dither {
     palette: Vec<[f64; 3]>,
-    /// Two indices, and the number of places of the pattern that have the second.
+    /// Two indices, and the number of positions in the pattern that have the second color.
     known: HashMap<Color, (u8, u8, u8)>,
-    /// The color that was looked for last, and its pair.
+    /// The most recent color, and its pair.
     last: Option<(Color, (u8, u8, u8))>,
 }
 
 impl Dither {
-    /// A palette of at most 256 colors.
+    /// Begins with a palette of at most 256 colors.
     pub(super) fn new(palette: &[Color]) -> Self {
         Self {
             palette: palette.iter().map(|color| color.map(f64::from)).collect(),
@@ -62,10 +62,10 @@ impl Dither {
         pair
     }
 
-    /// The nearest color, and that one of which some places of the pattern make the mean come nearest, without being too
-    /// different from it.
+    /// The nearest color, and the color that brings the mean of the pattern closest to the wanted color without differing
+    /// too much from it.
     fn pair(&self, color: Color) -> (u8, u8, u8) {
-        /// The weight of the squares of what pixels are off, besides that of what their mean is.
+        /// The weight of the squared differences of the pixels, relative to that of the mean.
         const NOISE: f64 = 0.1;
         let color = color.map(f64::from);
         let first = nearest(&self.palette, color);
@@ -82,7 +82,7 @@ impl Dither {
             if along <= 0.0 {
                 continue;
             }
-            // The nearest one has at least half of the places.
+            // The nearest color has at least half of the positions.
             let share = (along / length).min(0.5);
             let left = [0, 1, 2].map(|channel| wanted[channel] - share * way[channel]);
             let square = product(&left, &left) + NOISE * share * (1.0 - share) * length;
@@ -95,8 +95,8 @@ impl Dither {
     }
 }
 
-/// The number of a place in the pattern, from 0 to 63: its bits are those of the column and of the column and row together,
-/// the last ones first.
+/// The rank of a position in the pattern, from 0 to 63. Its bits are those of the row, and of the exclusive or of row and
+/// column, interleaved in reverse order.
 fn threshold(col: usize, row: usize) -> u8 {
     let (col, row) = (col % SIDE, row % SIDE);
     (0..3).fold(0, |number, bit| {
@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(mean([0, 0, 0]), [0.0; 3]);
         assert_eq!(mean([100, 100, 100]), [100.0; 3]);
         assert_eq!(mean([25, 25, 25]), [25.0; 3]);
-        // As good as black.
+        // Almost black.
         assert_eq!(mean([5, 5, 5]), [0.0; 3]);
         assert_eq!(mean([75, 75, 75]), [75.0; 3]);
         assert_eq!(mean([50, 0, 0]), [50.0, 0.0, 0.0]);

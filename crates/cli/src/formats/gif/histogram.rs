@@ -1,8 +1,8 @@
-//! The colors of all pictures of an animation, and how often each is there.
+//! Counts the colors of all pictures of an animation.
 
 use std::collections::BTreeSet;
 
-/// Bits of a channel by which colors are counted together.
+/// The number of upper bits of a channel that determine the bin of a color.
 const BITS: u32 = 6;
 
 /// A color: codes of red, green and blue.
@@ -11,7 +11,7 @@ pub(super) type Color = [u8; 3];
 /// The counted colors.
 #[derive(Clone, Debug)]
 pub(super) struct Histogram {
-    /// One for each color of so few bits.
+    /// One bin for each combination of the upper bits.
     bins: Vec<Bin>,
     /// All colors, as long as there are few.
     few: Option<BTreeSet<Color>>,
@@ -24,13 +24,13 @@ pub(super) struct Histogram {
 struct Bin {
     count: u64,
     sums: [u64; 3],
-    /// The color that is there more often than all others together, if there is one, and by how much it is ahead of them
+    /// The color that is more frequent than all others together, if there is one, and a lower bound of its lead
     /// (Boyer and Moore, 1981).
     candidate: Color,
     ahead: u64,
 }
 
-/// A color that stands for others.
+/// A color that represents others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Weighted {
     pub(super) color: [f64; 3],
@@ -39,7 +39,7 @@ pub(super) struct Weighted {
 }
 
 impl Histogram {
-    /// Without any colors. Up to `most` of them are known one by one.
+    /// An empty histogram, which keeps a list of all colors if there are at most `most`.
     pub(super) fn new(most: usize) -> Self {
         Self {
             bins: vec![Bin::default(); 1 << (3 * BITS)],
@@ -49,7 +49,7 @@ impl Histogram {
         }
     }
 
-    /// Counts so many pixels of a color.
+    /// Counts a number of pixels of a color.
     pub(super) fn add(&mut self, color: Color, count: u64) {
         let most = self.most;
         if let Some(few) = &mut self.few {
@@ -76,13 +76,13 @@ impl Histogram {
         }
     }
 
-    /// All colors, where they are few.
+    /// All colors, if there are few.
     pub(super) fn few(&self) -> Option<Vec<Color>> {
         let few = self.few.as_ref()?;
         Some(few.iter().copied().collect())
     }
 
-    /// The colors of areas in one color: those that at least one pixel in so many has, the most frequent first.
+    /// The colors of uniform areas: each has more than `1 / share` of all pixels. The most frequent color is the first.
     pub(super) fn flat(&self, share: u64) -> Vec<Color> {
         let flat = self
             .bins
@@ -93,7 +93,7 @@ impl Histogram {
         flat.into_iter().map(|(_, color)| color).collect()
     }
 
-    /// The mean color of each bin, but for what these colors stand for.
+    /// The mean color of each bin, without the pixels of these colors.
     pub(super) fn means_beside(&self, flat: &[Color]) -> Vec<Weighted> {
         let bins = self
             .bins
@@ -115,7 +115,7 @@ impl Histogram {
 }
 
 impl Bin {
-    /// The bin without so many pixels of its most frequent color as there certainly are.
+    /// The bin without the pixels that certainly have its most frequent color.
     fn without_candidate(mut self) -> Self {
         self.count -= self.ahead;
         for (sum, code) in self.sums.iter_mut().zip(self.candidate) {
@@ -154,7 +154,7 @@ mod tests {
             means.iter().map(|mean| mean.weight).sum()
         };
         assert_eq!(weight(&[]), 500.0);
-        // 4 of its bin have another color.
+        // 4 pixels of its bin have another color.
         assert_eq!(weight(&[[17, 100, 100]]), 500.0 - (201.0 - 3.0));
     }
 }

@@ -1,4 +1,4 @@
-//! GIF: pictures in one file, which follow each other in a loop, with 256 colors for all of them.
+//! GIF: pictures in one file, which are shown in a loop and share 256 colors.
 
 mod animation;
 mod dither;

@@ -1,18 +1,18 @@
-//! The colors that stand for all others: chosen so that the squares of the differences are small.
+//! Chooses the colors of a palette such that the sum of squared differences is small.
 //!
-//! The box that holds all colors is cut into boxes, always the one whose colors differ most, where the squares of the
-//! differences on both sides become least; then each color goes to the nearest mean, and means are taken again.
+//! A box with all colors is divided again and again: always the box whose colors differ most, at the cut that minimizes the
+//! sum of squares on both sides. Then each color is assigned to the nearest mean, and the means are computed again.
 //!
 //! Source: X. Wu, "Efficient statistical computations for optimal color quantization", Graphics Gems II, 1991, for the cuts;
-//! S. Lloyd, "Least squares quantization in PCM", 1982, for what follows.
+//! S. Lloyd, "Least squares quantization in PCM", 1982, for the means.
 
 use super::histogram::{Color, Histogram, Weighted};
 
-/// A color of which one pixel in so many has exactly that code is kept as it is: a background, above all.
+/// A color is kept exactly if at least one pixel in this number of pixels has it, for example a background.
 const FLAT_SHARE: u64 = 400;
-/// Colors that are kept as they are, at most.
+/// The largest number of colors that are kept exactly.
 const MOST_FLAT: usize = 32;
-/// The number of times that means are taken again.
+/// The number of times that the means are computed again.
 const ROUNDS: usize = 4;
 
 /// The colors, at most `most` of them.
@@ -37,14 +37,15 @@ pub(super) fn choose(histogram: &Histogram, most: usize) -> Vec<Color> {
     colors
 }
 
-/// A box of colors, and how it is cut best.
+/// A box of colors, and its best cut.
 struct Part {
     colors: Vec<Weighted>,
-    /// The channel, the number of colors below the cut once they are sorted by it, and by how much the squares become less.
+    /// The channel, the number of colors below the cut when they are sorted by the channel, and the decrease of the sum of
+    /// squares.
     cut: Option<(usize, usize, f64)>,
 }
 
-/// The means of so many boxes.
+/// The means of this number of boxes.
 fn cut(colors: Vec<Weighted>, most: usize) -> Vec<[f64; 3]> {
     let mut parts = vec![Part::new(colors)];
     while parts.len() < most {
@@ -65,7 +66,7 @@ fn cut(colors: Vec<Weighted>, most: usize) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// Sorts colors by a channel, and in one order however they lay.
+/// Sorts colors by a channel. The result does not depend on their previous order.
 fn sort(colors: &mut [Weighted], channel: usize) {
     let order = [channel, (channel + 1) % 3, (channel + 2) % 3];
     colors.sort_by(|one, other| {
@@ -96,7 +97,7 @@ impl Part {
     }
 }
 
-/// The sums of colors by their weights.
+/// The weighted sums of colors.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     weight: f64,
@@ -130,14 +131,15 @@ impl Sums {
         self.color.map(|sum| sum / self.weight)
     }
 
-    /// The square of the mean, by the weight. The squares of all colors less this are those of their differences to it.
+    /// The square of the mean, times the weight. The sum of squared differences from the mean is the sum of the squares of
+    /// all colors minus this.
     fn square(&self) -> f64 {
         let squares: f64 = self.color.iter().map(|sum| sum * sum).sum();
         squares / self.weight
     }
 }
 
-/// Puts the mean of the colors that are nearest to each chosen one in its place, but for the first `fixed`.
+/// Replaces each chosen color, except the first `fixed`, by the mean of the colors that are nearest to it.
 fn improve(chosen: &mut [[f64; 3]], fixed: usize, colors: &[Weighted]) {
     let mut sums = vec![Sums::default(); chosen.len()];
     for color in colors {
@@ -150,7 +152,7 @@ fn improve(chosen: &mut [[f64; 3]], fixed: usize, colors: &[Weighted]) {
     }
 }
 
-/// The index of the color nearest to another one, the first of equals.
+/// The index of the color nearest to another one. Among equally near colors, it is the first.
 pub(super) fn nearest(colors: &[[f64; 3]], color: [f64; 3]) -> usize {
     let mut best = (0, f64::INFINITY);
     for (index, other) in colors.iter().enumerate() {
@@ -179,7 +181,7 @@ mod tests {
     #[test]
     fn many_colors_are_met_as_well_as_they_can_be() {
         let mut histogram = Histogram::new(16);
-        // A line of 256 colors, which 16 meet best every 16 codes; and a background.
+        // A line of 256 colors, for which the best 16 are 16 codes apart, and a background.
         for code in 0..=255 {
             histogram.add([code, code, code], 1);
         }
@@ -195,7 +197,7 @@ mod tests {
                 (chosen[0] - color[0]).powi(2)
             })
             .sum();
-        // Of 16 codes around their mean, 1/12 (16² − 1) each.
+        // The mean square of the differences of 16 codes from their mean is (16² − 1) / 12.
         assert!(squares < 1.2 * 256.0 * 255.0 / 12.0, "{squares}");
     }
 }

@@ -127,17 +127,17 @@ fn alpha_depth_and_curve_are_those_of_the_file() {
     assert_eq!(rgba, [0.2, 0.2 * 0.2, 0.0, 0.2]);
 
     let (description, rgba) = first(b"P5 1 1 65535\n\x12\x34", "a.pgm");
-    assert_eq!(description, "PNM, 16 bit sRGB, grey");
+    assert_eq!(description, "PNM, 16 bit sRGB, gray");
     assert_eq!(rgba[0], srgb::decode(f64::from(0x1234) / 65535.0));
     let (description, rgba) = first(b"P1 2 1\n0 1\n", "a.pbm");
-    assert_eq!(description, "PNM, 8 bit sRGB, grey");
+    assert_eq!(description, "PNM, 8 bit sRGB, gray");
     assert_eq!(rgba[0], 1.0);
     let pam =
         b"P7\nWIDTH 1\nHEIGHT 1\nDEPTH 2\nMAXVAL 255\nTUPLTYPE GRAYSCALE_ALPHA\nENDHDR\n\xff\x33";
     let (description, rgba) = first(pam, "a.pam");
-    assert_eq!(description, "PNM, 8 bit sRGB, grey + alpha");
+    assert_eq!(description, "PNM, 8 bit sRGB, gray + alpha");
     assert_eq!(rgba, [0.2, 0.2, 0.2, 0.2]);
-    // Its numbers go from 0 to 100.
+    // Its numbers range from 0 to 100.
     let (_, rgba) = first(b"P2 1 1 100\n50\n", "a.pgm");
     assert!((rgba[0] - srgb::decode(0.5)).abs() < 0.01, "{rgba:?}");
 
@@ -163,13 +163,13 @@ fn of_animations_the_first_frame_is_read() {
     assert_eq!(picture.whole().unwrap().rgba[0][0], [1.0, 0.0, 0.0, 1.0]);
 }
 
-/// All of a file that a decoder needs: what may come after the pixels are an end mark and metadata.
+/// The part of a file that a decoder needs. Only an end mark and metadata may follow the pixels.
 #[test]
 fn truncated_files_are_refused() {
     for format in ALL {
         let bytes = written(format);
         let enough = match format {
-            // Its decoder fills what is missing, but for the start.
+            // Its decoder replaces missing data, except at the start.
             Other::Jpeg => bytes.len() / 2,
             Other::Gif => bytes.len() - 24,
             Other::Qoi => bytes.len() - 8,
@@ -183,7 +183,7 @@ fn truncated_files_are_refused() {
     }
 }
 
-/// Files of a few bytes that announce as many pixels as their format has room for.
+/// Files of a few bytes that claim the largest number of pixels of their format.
 #[test]
 fn huge_pictures_are_refused_before_there_is_room_for_them() {
     let mut bmp = written(Other::Bmp);
@@ -192,7 +192,7 @@ fn huge_pictures_are_refused_before_there_is_room_for_them() {
     let mut tga = written(Other::Tga);
     tga[12..16].fill(0xff);
     let mut qoi = written(Other::Qoi);
-    // Its decoder takes up to 400 million pixels.
+    // Its decoder accepts up to 400 million pixels.
     qoi[4..12].copy_from_slice(&[0, 0, 0x4e, 0x1f, 0, 0, 0x4e, 0x1f]);
     let mut gif = written(Other::Gif);
     gif[6..10].fill(0xff);
@@ -241,7 +241,7 @@ fn lossy_data_of_another_size_is_refused_before_it_is_decoded() {
     bytes[4..8].copy_from_slice(&length.to_le_bytes());
     assert_eq!(
         decode(Other::Webp, &bytes).err().unwrap(),
-        "not a usable WebP: its data has 16383 x 16383 pixels, and the picture 1 x 1"
+        "not a usable WebP: its data has 16383 x 16383 pixels, but the picture has 1 x 1"
     );
 }
 
@@ -260,7 +260,7 @@ fn what_is_no_picture_is_refused_in_words() {
         let refusal = load::decode_named(bytes, name).err().unwrap();
         assert!(refusal.starts_with("not a usable "), "{refusal}");
     }
-    // A name does not make another format of a picture.
+    // The name does not change the format of a picture.
     let qoi = written(Other::Qoi);
     assert_eq!(load::decode_named(&qoi, "a.tga").unwrap().format, "QOI");
     assert!(Path::new("a.tga").extension().is_some());

@@ -1,4 +1,4 @@
-//! The decoder of TIFF files, and what it tells about their pictures.
+//! The decoder of TIFF files, and the properties of their pictures.
 
 use std::io::SeekFrom;
 
@@ -13,21 +13,21 @@ use crate::formats::guard::guarded;
 use crate::formats::picture::size_of;
 use crate::formats::source::Input;
 
-/// Bytes of the samples that are decoded at a time: a strip, or a row of tiles.
+/// The largest number of bytes of the samples that are decoded together: a strip, or a row of tiles.
 const MOST_BYTES: u64 = 1 << 26;
 
-/// A file whose directory was read.
+/// A file after its directory is read.
 pub(super) struct Opened {
     pub(super) decoder: Decoder<Box<dyn Input>>,
     pub(super) size: Size,
     /// The number of channels of color, 1 or 3.
     pub(super) colors: usize,
     pub(super) alpha: Alpha,
-    /// Samples of a pixel, some of which may have no meaning that is known.
+    /// The number of samples per pixel. Some may have an unknown meaning.
     pub(super) samples: usize,
     pub(super) bits: u8,
     pub(super) float: bool,
-    /// Chunks side by side, and the size of one that is whole.
+    /// The number of chunks side by side, and the size of a complete chunk.
     pub(super) across: u32,
     pub(super) chunk: (u32, u32),
     /// The end of the directory in the file.
@@ -38,13 +38,13 @@ pub(super) struct Opened {
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Alpha {
     None,
-    /// By which the colors are multiplied.
+    /// The colors are multiplied by it.
     Associated,
-    /// By which they are not.
+    /// The colors are not multiplied by it.
     Unassociated,
 }
 
-/// Reads the directory of the first picture in a file, and refuses kinds of pictures that are not read.
+/// Reads the directory of the first picture in a file, and refuses unsupported kinds of pictures.
 pub(super) fn open(mut file: Box<dyn Input>) -> Result<Opened, String> {
     let directory_end = directory::check(&mut file)?;
     let end = file.seek(SeekFrom::End(0));
@@ -92,7 +92,9 @@ fn examine(
     let planes = number(&mut decoder, Tag::PlanarConfiguration, 1)?;
     let samples = usize::from(number(&mut decoder, Tag::SamplesPerPixel, 1)?);
     if planes != PlanarConfiguration::Chunky.to_u16() && samples > 1 {
-        return Err("its channels lie apart, expected pixel by pixel".to_owned());
+        return Err(
+            "its channels are stored in separate planes, expected pixel by pixel".to_owned(),
+        );
     }
     let extra: Option<Vec<u16>> = decoder
         .find_tag_unsigned_vec(Tag::ExtraSamples)
@@ -109,7 +111,7 @@ fn examine(
     let alpha = match extra.first().copied().and_then(ExtraSamples::from_u16) {
         Some(ExtraSamples::AssociatedAlpha) => Alpha::Associated,
         Some(ExtraSamples::UnassociatedAlpha) => Alpha::Unassociated,
-        // Four channels that are said to be colors.
+        // The file declares all four channels as colors.
         None if matches!(color_type, ColorType::RGBA(_)) => Alpha::Unassociated,
         _ => Alpha::None,
     };
@@ -126,7 +128,7 @@ fn examine(
     };
     if !kinds.contains(&bits) {
         return Err(format!(
-            "its numbers have {bits} bit, expected one of {kinds:?}"
+            "its numbers have {bits} bits, expected one of {kinds:?}"
         ));
     }
     let (tag, across) = match decoder.get_chunk_type() {
@@ -138,7 +140,7 @@ fn examine(
     };
     let chunk = decoder.chunk_dimensions();
     if chunk.0 == 0 || chunk.1 == 0 {
-        return Err("its parts have no pixels".to_owned());
+        return Err("its strips or tiles have no pixels".to_owned());
     }
     let lengths: Option<Vec<u64>> = decoder.find_tag_unsigned_vec(tag).map_err(words)?;
     let lengths = lengths.unwrap_or_default();
@@ -146,7 +148,7 @@ fn examine(
     if (lengths.len() as u64) < u64::from(across) * u64::from(down) {
         return Err("it has too few strips or tiles for its size".to_owned());
     }
-    // Parts that share their bytes would make a picture of any size of a short file.
+    // If parts could share their bytes, a short file could contain a picture of any size.
     let length = lengths
         .iter()
         .fold(0_u64, |sum, &next| sum.saturating_add(next));

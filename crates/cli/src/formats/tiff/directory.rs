@@ -1,4 +1,4 @@
-//! The directory of the first picture in a TIFF, as far as it has to be known before a decoder believes it.
+//! Checks the directory of the first picture in a TIFF before a decoder relies on it.
 //!
 //! Source: "TIFF, Revision 6.0", Adobe, 1992, section 2, and "BigTIFF Design", 2007.
 
@@ -6,14 +6,14 @@ use std::io::{self, Read, Seek, SeekFrom};
 
 use crate::base::failure::reason;
 
-/// Entries of a directory; pictures have some dozens.
+/// The largest number of entries in a directory; pictures have some dozens.
 const MOST_ENTRIES: u64 = 1 << 12;
-/// Numbers of an entry that describes the picture, as many as there may be rows of pixels, and more.
+/// The largest count of numbers in an entry that describes the picture. It is larger than the number of rows may be.
 const MOST_NUMBERS: u64 = 1 << 18;
-/// The first tag that a program may give a meaning of its own.
+/// The first tag that programs may define themselves.
 const FIRST_PRIVATE_TAG: u16 = 1 << 15;
 
-/// Refuses a directory with so many numbers that they would fill the memory; returns the place in the file where it ends.
+/// Refuses a directory if its numbers would fill the memory. Returns the position in the file where it ends.
 pub(super) fn check(file: &mut (impl Read + Seek)) -> Result<u64, String> {
     let entries = read(file).map_err(|error| match error.kind() {
         io::ErrorKind::UnexpectedEof => "it ends early".to_owned(),
@@ -28,7 +28,7 @@ pub(super) fn check(file: &mut (impl Read + Seek)) -> Result<u64, String> {
     Ok(end)
 }
 
-/// The end of the directory, and the count of numbers in its largest entry; the inner error is about what was read.
+/// The end of the directory, and the count of numbers in its largest entry. The inner error is about the contents.
 fn read(file: &mut (impl Read + Seek)) -> io::Result<Result<(u64, u64), String>> {
     file.rewind()?;
     let mut start = [0; 16];
@@ -45,7 +45,7 @@ fn read(file: &mut (impl Read + Seek)) -> io::Result<Result<(u64, u64), String>>
     if length < if is_big { 16 } else { 8 } {
         return Err(io::ErrorKind::UnexpectedEof.into());
     }
-    // The lengths of a place in the file, of the number of entries and of an entry, and the first place.
+    // The lengths of a position in the file, of the number of entries and of an entry, and the first position.
     let (place_bytes, count_bytes, entry_bytes, place) = match is_big {
         true => (8, 8, 20, number(&start[8..16])),
         false => (4, 2, 12, number(&start[4..8])),
@@ -67,13 +67,13 @@ fn read(file: &mut (impl Read + Seek)) -> io::Result<Result<(u64, u64), String>>
             longest = longest.max(number(&entry[4..4 + place_bytes]));
         }
     }
-    // The place of the next directory follows.
+    // The position of the next directory follows.
     file.read_exact(&mut bytes[..place_bytes])?;
     let end = file.stream_position()?;
     Ok(Ok((end, longest)))
 }
 
-/// Reads as many bytes as there are.
+/// Reads bytes until the buffer is full or the file ends, and returns their number.
 fn read_all(file: &mut impl Read, bytes: &mut [u8]) -> io::Result<usize> {
     let mut found = Vec::new();
     file.take(bytes.len() as u64).read_to_end(&mut found)?;

@@ -1,4 +1,4 @@
-//! TIFF of other programs and of marbles, as linear light, strip by strip.
+//! Reads TIFF files of other programs and of marbles as linear light, strip by strip.
 
 use tiff::decoder::DecodingResult;
 use tiff::tags::Tag;
@@ -19,7 +19,7 @@ pub(crate) const NAME: &str = "TIFF";
 /// A file that is being read.
 struct Chunks {
     file: Opened,
-    /// The chunks that the row crosses, from the left.
+    /// The chunks that contain the row, from the left.
     chunks: Vec<DecodingResult>,
     /// The number of the next row.
     next: u32,
@@ -70,8 +70,8 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
     ))
 }
 
-/// The warning about numbers of more than 8 bit, which many programs write in proportion to light.
-const SRGB_ASSUMED: &str = "it does not say what its numbers mean, they are taken as sRGB codes";
+/// The warning about integers with more than 8 bits, for which many programs use linear codes.
+const SRGB_ASSUMED: &str = "it does not say what its numbers mean: they are read as sRGB codes";
 
 impl RowSource for Chunks {
     fn next(&mut self, row: &mut Vec<f64>) -> Result<(), String> {
@@ -110,13 +110,13 @@ impl RowSource for Chunks {
     }
 }
 
-/// Adds the numbers at these places.
+/// Adds the numbers at these positions.
 fn add(
     row: &mut Vec<f64>,
     numbers: &DecodingResult,
     places: impl Iterator<Item = usize>,
 ) -> Result<(), String> {
-    /// All of them, or why not.
+    /// Adds all of them, or returns an error.
     fn of<T: Copy>(
         row: &mut Vec<f64>,
         numbers: &[T],

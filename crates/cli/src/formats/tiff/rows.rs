@@ -22,7 +22,8 @@ impl Rows {
     pub(crate) fn begin(file: File) -> Result<Self, String> {
         let file: Box<dyn Input> = Box::new(BufReader::new(file));
         let file = open(file)?;
-        let shape = Shape::of_file(&file).ok_or("its samples are not as marbles writes them")?;
+        let shape =
+            Shape::of_file(&file).ok_or("its samples differ from those that marbles writes")?;
         Ok(Self {
             file,
             shape,
@@ -35,7 +36,7 @@ impl Rows {
         self.shape
     }
 
-    /// The samples of the next row; `None` behind the last one.
+    /// The samples of the next row; `None` after the last one.
     pub(crate) fn next(&mut self) -> Result<Option<&[u8]>, String> {
         if self.next == self.shape.size.height {
             return Ok(None);

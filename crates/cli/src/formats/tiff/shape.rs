@@ -1,4 +1,4 @@
-//! The samples of a TIFF: light, premultiplied, in codes of 16 bit or in single precision.
+//! The samples of a TIFF: premultiplied light, in codes with 16 bits or in single precision.
 
 use std::ops::Range;
 
@@ -17,12 +17,12 @@ pub(crate) struct Shape {
     /// The number of colors, 1 or 3.
     pub(super) colors: usize,
     pub(super) alpha: bool,
-    /// Single precision instead of 16 bit.
+    /// Single precision instead of 16 bits.
     pub(super) float: bool,
 }
 
 impl Shape {
-    /// The shape of a file that holds a picture of this form.
+    /// The shape of a file for a picture of this form.
     pub(super) fn of(form: &Form, options: TiffOptions) -> Self {
         let grey = form.channels == Channels::Grey && !options.rgb;
         Self {
@@ -33,7 +33,7 @@ impl Shape {
         }
     }
 
-    /// The shape of a file that marbles may have written; `None` where it is another program's for sure.
+    /// The shape of a file that marbles may have written, or `None` if another program must have written it.
     pub(super) fn of_file(file: &Opened) -> Option<Self> {
         let shape = Self {
             size: file.size,
@@ -73,18 +73,18 @@ impl Shape {
         self.size.width as usize * self.pixel_bytes()
     }
 
-    /// Bytes that a file has at most.
+    /// The largest number of bytes that a file may have.
     pub(super) fn file_bytes(self) -> u64 {
-        /// A header, a table of strips of a row each, and a profile take less.
+        /// The header, the profile, and a table of strips with one row each take less than this.
         const OTHER_PARTS: u64 = 1 << 21;
         let samples = self.row_bytes() as u64 * u64::from(self.size.height);
-        // Deflate makes five bytes more of every 16 kB that it cannot make fewer.
+        // Deflate adds five bytes to every 16 kB that it cannot compress.
         samples + samples / 1000 + OTHER_PARTS
     }
 
-    /// Puts the numbers of some rows of an image where they belong in `samples`, which are as many rows, from the column
-    /// `col` on; returns how many pixels were clipped, or how many finite numbers a float has no room for. Light is
-    /// multiplied by `gain` before it becomes codes.
+    /// Copies the numbers of rows of an image to their positions in `samples`, which has the same rows, starting at the
+    /// column `col`. Returns how many pixels were clipped, or how many finite numbers were too large for a float. Light is
+    /// multiplied by `gain` before it is converted to codes.
     pub(super) fn encode(
         self,
         samples: &mut [u8],
@@ -124,7 +124,7 @@ impl Shape {
         clipped
     }
 
-    /// The bytes of a strip in a file: codes as differences to those on the left, compressed.
+    /// The compressed bytes of a strip in a file. Codes are stored as differences to their left neighbors.
     pub(crate) fn compress(self, mut samples: Vec<u8>) -> Vec<u8> {
         if !self.float {
             for row in samples.chunks_exact_mut(self.row_bytes()) {
@@ -147,7 +147,7 @@ impl Shape {
 /// The largest code.
 const MOST: f64 = u16::MAX as f64;
 
-/// The light above which white is no longer the nearest code, though it is the last one.
+/// The light above which a pixel counts as clipped: half a step above white.
 const MOST_LIGHT: f64 = (MOST + 0.5) / MOST;
 
 /// The code nearest to a number from 0 to 1; the cast saturates.

@@ -1,4 +1,4 @@
-//! The digest and the region that a TIFF tells, if its strips are not damaged.
+//! The digest and the region in a TIFF, if its strips are not damaged.
 
 use std::io::{Read, Seek, SeekFrom};
 
@@ -17,24 +17,25 @@ use crate::formats::source::Input;
 
 /// The digest and the region of the picture in a file.
 ///
-/// All strips are read: they follow each other from the start of the file, and the checksum of their samples has to be
-/// right. Refuses files that tell no digest, whose strips are damaged, or which do not end with their directory.
+/// All strips are read: each must begin where the one before ends, and the checksums of the samples must be correct. Files
+/// without a digest, with damaged strips, or with bytes after the directory are refused.
 pub(crate) fn contents(file: Box<dyn Input>) -> Result<(Hash, Region), String> {
     let mut opened = open(file)?;
-    let shape = Shape::of_file(&opened).ok_or("its samples are not as marbles writes them")?;
-    let told = told(&mut opened).ok_or("it tells no digest")?;
+    let shape =
+        Shape::of_file(&opened).ok_or("its samples differ from those that marbles writes")?;
+    let told = told(&mut opened).ok_or("it contains no digest")?;
     let decoder = &mut opened.decoder;
     let places = numbers(decoder, Tag::StripOffsets)?;
     let lengths = numbers(decoder, Tag::StripByteCounts)?;
     let mut file = decoder.inner();
     let io = |error: std::io::Error| reason(&error);
     if file.seek(SeekFrom::End(0)).map_err(io)? != opened.directory_end {
-        return Err("it goes on after its directory".to_owned());
+        return Err("it continues after its directory".to_owned());
     }
     let (_, rows) = opened.chunk;
     let strips = shape.size.height.div_ceil(rows);
     if [places.len(), lengths.len()] != [strips as usize; 2] {
-        return Err("it has more or fewer strips than its size asks for".to_owned());
+        return Err("it has more or fewer strips than its size needs".to_owned());
     }
     let mut place = places[0];
     for (index, (&start, &length)) in (0..).zip(places.iter().zip(&lengths)) {
@@ -46,7 +47,7 @@ pub(crate) fn contents(file: Box<dyn Input>) -> Result<(Hash, Region), String> {
         let rows = rows.min(shape.size.height - index * rows);
         let bytes = rows as u64 * shape.row_bytes() as u64;
         let mut samples = ZlibDecoder::new(file.take(length));
-        // One byte more, so that the checksum is compared.
+        // The decoder compares the checksum only if one more byte is read.
         let read = std::io::copy(
             &mut Read::by_ref(&mut samples).take(bytes + 1),
             &mut std::io::sink(),

@@ -24,7 +24,7 @@ impl Strips {
         }
     }
 
-    /// Puts the numbers of some rows of an image where they belong in a strip; see [`Shape::encode`].
+    /// Copies the numbers of rows of an image to their positions in a strip; see [`Shape::encode`].
     pub(crate) fn encode(
         &self,
         samples: &mut [u8],

@@ -1,6 +1,6 @@
-//! TIFF files, from compressed strips.
+//! Writes TIFF files from compressed strips.
 //!
-//! Source: "TIFF, Revision 6.0", Adobe, 1992. Files that may become longer than 4 GiB are BigTIFF.
+//! Source: "TIFF, Revision 6.0", Adobe, 1992. A file that may exceed 4 GiB is a BigTIFF.
 
 use std::io::{self, BufWriter, Seek, Write};
 
@@ -16,14 +16,14 @@ use crate::formats::facts::SOFTWARE;
 use crate::formats::npy::stamp::Stamp;
 use crate::formats::profile::linear;
 
-/// The beginnings of the lines that tell the digest of a picture, and the part of it that the file holds.
+/// The beginnings of the lines with the digest of a picture and the region that the file contains.
 pub(super) const DIGEST: &str = "Digest: ";
 pub(super) const REGION: &str = "Region: ";
 
-/// Bytes that are written at a time.
+/// The number of bytes that are written together.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// Writes a file of strips of so many rows; `next` gives the bytes of each, from the top downward.
+/// Writes a file in strips with this number of rows. `next` returns the bytes of each strip, from the top downward.
 pub(crate) fn write(
     file: &mut (impl Write + Seek),
     shape: Shape,

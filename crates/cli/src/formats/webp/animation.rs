@@ -1,4 +1,4 @@
-//! Animated WebP: pictures in one file, which follow each other in a loop, each of them without loss.
+//! Animated WebP: lossless pictures in one file, which are shown in a loop.
 //!
 //! Source: "WebP Container Specification", Google.
 
@@ -16,18 +16,18 @@ use crate::formats::png::shape::Shape;
 
 /// The longest side of a picture.
 const LONGEST_SIDE: u32 = 1 << 14;
-/// Durations count thousandths of a second, and are numbers of 24 bit.
+/// Durations count thousandths of a second, and have 24 bits.
 const UNITS: f64 = 1000.0;
 const LONGEST: u32 = (1 << 24) - 1;
-/// The shortest duration: browsers show a picture of up to 10 for a tenth of a second.
+/// The shortest duration. Browsers show a picture with a duration of up to 10 for a tenth of a second.
 const SHORTEST: u32 = 11;
 
 /// The rate at which all pictures have the shortest duration.
 pub(in crate::formats) const MOST_FRAMES_PER_SECOND: f64 = UNITS / SHORTEST as f64;
 
-/// Bytes that are written at a time.
+/// The number of bytes that are written together.
 const BUFFER_BYTES: usize = 1 << 18;
-/// Bytes before a chunk of a file with one: `RIFF`, a length, `WEBP`.
+/// The bytes before the chunk of a still picture: `RIFF`, a length, `WEBP`.
 const START_BYTES: usize = 12;
 
 /// A file that is being written.
@@ -39,13 +39,13 @@ pub(in crate::formats) struct Animation<W: Write> {
     is_still: bool,
     /// The samples of one picture.
     samples: Vec<u8>,
-    /// The number of pictures that were written, and of the file's bytes.
+    /// The numbers of pictures and of bytes that have been written.
     frames: u32,
     bytes: u64,
 }
 
 impl<W: Write + Seek> Animation<W> {
-    /// Begins a file of so many pictures, which are shown at this rate; one of them is a still.
+    /// Begins a file with this number of pictures, which are shown at this rate. A single picture is a still.
     pub(in crate::formats) fn begin(
         file: W,
         shape: Shape,
@@ -82,7 +82,7 @@ impl<W: Write + Seek> Animation<W> {
         Ok(animation)
     }
 
-    /// Writes what comes before the first picture. The length of the file is not known yet.
+    /// Writes the bytes before the first picture. The length of the file is not known yet.
     fn write_start(&mut self, has_alpha: bool) -> Result<(), Fault> {
         const ANIMATED: u8 = 1 << 1;
         const ALPHA: u8 = 1 << 4;
@@ -94,8 +94,8 @@ impl<W: Write + Seek> Animation<W> {
         start.extend(bytes_of_24(self.size.width - 1));
         start.extend(bytes_of_24(self.size.height - 1));
         write_header(&mut start, b"ANIM", 6)?;
-        start.extend([0; 4]); // a background that nothing leaves free
-        start.extend([0; 2]); // for ever
+        start.extend([0; 4]); // a background that is never visible
+        start.extend([0; 2]); // forever
         self.add(&start)
     }
 
@@ -126,10 +126,10 @@ impl<W: Write + Seek> animation::Animation for Animation<W> {
         if self.is_still {
             return self.add(&still);
         }
-        /// The picture replaces what was there, also where it is transparent, and stays.
+        /// The picture replaces the previous one, including its transparent pixels, and stays.
         const REPLACES: u8 = 1 << 1;
         let shown = duration(self.frames, self.rate, UNITS, SHORTEST).min(LONGEST);
-        // Its chunk is that of the frame as well.
+        // The frame contains the chunk of the still picture.
         let picture = &still[START_BYTES..];
         let mut frame = Vec::new();
         write_header(&mut frame, b"ANMF", 16 + picture.len() as u32)?;

@@ -1,22 +1,22 @@
-//! The first frame of a WebP, as far as it has to be known before a decoder believes it.
+//! Checks the first frame of a WebP before a decoder relies on it.
 
 use std::io::{Read, Seek, SeekFrom};
 
 use super::chunks::{HEADER_BYTES, header};
 use crate::base::failure::reason;
 
-/// Refuses a file whose lossy data is of a larger picture than this one: its decoder would make room for that first.
+/// Refuses a file if its lossy data contains a larger picture than this one, for which the decoder would allocate memory.
 ///
 /// Source: RFC 6386, 9.1, for the start of the data.
 pub(in crate::formats) fn check(
     file: &mut (impl Read + Seek),
     (width, height): (u32, u32),
 ) -> Result<(), String> {
-    /// Before the first chunk: `RIFF`, a length, `WEBP`.
+    /// The bytes before the first chunk: `RIFF`, a length, `WEBP`.
     const START: u64 = 12;
-    /// Before the chunks of a frame: its place and size, its time, and flags.
+    /// The bytes before the chunks of a frame: its position and size, its duration, and flags.
     const FRAME_BYTES: u64 = 16;
-    /// Chunks that are looked at.
+    /// The largest number of chunks that are searched.
     const MOST_CHUNKS: usize = 1 << 16;
     let mut place = START;
     for _ in 0..MOST_CHUNKS {
@@ -38,7 +38,7 @@ pub(in crate::formats) fn check(
                 return match found.0 <= width && found.1 <= height {
                     true => Ok(()),
                     false => Err(format!(
-                        "its data has {} x {} pixels, and the picture {width} x {height}",
+                        "its data has {} x {} pixels, but the picture has {width} x {height}",
                         found.0, found.1
                     )),
                 };

@@ -22,7 +22,7 @@ fn row(bytes: &[u8]) -> Vec<[f64; 4]> {
     whole(bytes).unwrap().rgba.remove(0)
 }
 
-/// A file of one row of another program.
+/// A file of another program with one row.
 fn written<C: colortype::ColorType>(
     width: u32,
     samples: &[C::Inner],
@@ -91,7 +91,7 @@ fn numbers_of_others_become_light() {
             [light(9.0, 255.0), light(8.0, 255.0), light(7.0, 255.0), 1.0]
         ]
     );
-    // Four channels that are said to be colors: the last is alpha.
+    // The file declares four channels as colors: the last is alpha.
     let bytes = written::<colortype::RGBA8>(
         1,
         &[255, 0, 255, 51],
@@ -119,7 +119,7 @@ fn numbers_of_others_become_light() {
     assert_eq!(row(&bytes), [[0.1, 0.1, 0.1, 1.0]]);
 }
 
-/// A file of tiles of 16 × 16, of which the last ones reach beyond the picture, with a grey and an alpha of 8 bit.
+/// A file in tiles of 16 × 16 pixels, with 8-bit gray and alpha. The last tiles extend beyond the picture.
 fn tiled(width: u32, height: u32, alpha: u16, value: impl Fn(u32, u32) -> [u8; 2]) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
     let mut encoder = TiffEncoder::new(&mut file).unwrap();
@@ -165,7 +165,7 @@ fn tiles_are_put_together() {
         let bytes = tiled(37, 18, alpha, value);
         let picture = decode(&bytes).unwrap();
         assert_eq!((picture.size.width, picture.size.height), (37, 18));
-        // A channel without a meaning is none.
+        // A channel without a meaning is ignored.
         assert_eq!(picture.alpha, is_straight);
         let picture = picture.whole().unwrap();
         for row in 0..18 {
@@ -198,7 +198,7 @@ fn truncated_files_are_refused() {
     }
 }
 
-/// A file with other numbers for a tag of one number.
+/// A file with other numbers for a tag with one number.
 fn altered(bytes: &[u8], tag: Tag, number: u32) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     let directory = u32::from_le_bytes(bytes[4..8].try_into().unwrap()) as usize + 2;
