@@ -1,12 +1,16 @@
 //! Pictures of other programs, as read by `marbles compare`. Those in `tests/seeds/pictures` were written by OpenEXR,
-//! by NumPy, and by hand.
+//! NumPy, Pillow, tifffile and OpenCV, and by hand.
 
 use std::ffi::OsString;
 use std::io::sink;
 use std::path::{Path, PathBuf};
 
-/// The picture with the same colors as all the others.
+/// The picture with the same colors as all EXR files and some others.
 const COLORS: &str = "doubles.npy";
+
+/// The picture whose codes the TIFF files and the files in formats that are only read contain, or whose light they contain
+/// divided.
+const CODES: &str = "plain.tif";
 
 fn seed(name: &str) -> PathBuf {
     let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds/pictures");
@@ -55,5 +59,43 @@ fn what_is_stored_in_two_ways_is_the_same() {
     ] {
         assert_eq!(compare(one, other, "0"), 0, "{one}");
         assert_eq!(compare(one, COLORS, "0"), 1, "{one}");
+    }
+}
+
+#[test]
+fn formats_without_loss_have_the_same_codes() {
+    for (one, other) in [
+        ("lzw.tif", CODES),
+        ("deep_tiles.tif", CODES),
+        ("loop.gif", CODES),
+        ("palette.gif", CODES),
+        ("lossless.webp", CODES),
+        ("rgb.bmp", CODES),
+        ("rgb.tga", CODES),
+        ("rgb.ppm", CODES),
+        // These have the same alpha.
+        ("alpha.pam", "alpha.tif"),
+        ("rle.tga", "alpha.tif"),
+        ("bits.pbm", "bits.bmp"),
+    ] {
+        assert_eq!(compare(one, other, "0"), 0, "{one}");
+    }
+    assert_eq!(compare("alpha.tif", CODES, "0.4"), 1);
+}
+
+#[test]
+fn formats_with_loss_are_near() {
+    for (one, other, tolerance, less) in [
+        ("cmyk.jpg", CODES, "5e-2", "4e-2"),
+        ("progressive.jpg", "grey.pgm", "2e-2", "1e-3"),
+        // These formats mix the colors of neighbors.
+        ("rgb.jpg", CODES, "0.5", "0.4"),
+        ("lossy.webp", CODES, "0.6", "0.5"),
+        ("loop.webp", CODES, "0.6", "0.5"),
+        // Three numbers with 8 bits share a power of two; light is up to 4.
+        ("rle.hdr", "float.tif", "1.6e-2", "1e-3"),
+    ] {
+        assert_eq!(compare(one, other, tolerance), 0, "{one}");
+        assert_eq!(compare(one, other, less), 1, "{one}");
     }
 }

@@ -24,6 +24,9 @@
 //! assert_eq!(codes[..4], [0, 0, 0, 255]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//! With the feature `image`, an [`Image`] converts to buffers of the crate `image`: linear light in an `image::Rgba32FImage`, or sRGB
+//! codes in an `image::RgbaImage`.
+//!
 //! The folder `examples` has a picture with its errors, a sequence, exact hits and visible areas.
 //!
 //! # Conventions

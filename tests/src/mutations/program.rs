@@ -23,13 +23,15 @@ const SCENE: &str = "(
 const RENDER: &str = "render scene.ron --frames 1 --samples 2 --quiet --threads 1";
 
 /// The options that lead to the different files, and the names of the files.
-const FILES: [(&str, &str); 6] = [
+const FILES: [(&str, &str); 8] = [
     ("a.png", ""),
     ("b.png", "--bits 16 --alpha --region 0,0,24,10"),
     ("c.exr", "--error-channel"),
     ("d.exr", "--float --channels id,depth --region 0,10,24,10"),
     ("e.npy", ""),
     ("f.exr", "--per-light=layers"),
+    ("g.tif", "--alpha"),
+    ("h.tif", "--float --region 0,10,24,10"),
 ];
 
 /// Runs `marbles`; returns the exit code.

@@ -11,10 +11,14 @@ use super::inputs::Inputs;
 use super::several_scenes::Others;
 use super::{dim_light, figures, oversights, scene};
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
 use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
-use crate::formats::encoding::{Encoding, ExrOptions, Format, NpyOptions, PngOptions};
+use crate::formats::encoding::{
+    AnimationFormat, Encoding, ExrOptions, Format, NpyOptions, PngOptions, TiffOptions,
+};
+use crate::formats::loops::most_frames_per_second;
 use crate::formats::npy::files::names_beside;
 use crate::formats::sidecar;
 use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
@@ -199,6 +203,9 @@ fn check_view(
     const FRAMES: usize = 1000;
     let scene = &request.scene;
     let frame = request.frames.first();
+    if let Some(warning) = too_fast(request) {
+        scene::warn(&[warning], &request.scene_path, &arguments.options, console)?;
+    }
     // Tables that cannot be read are told when their turn comes.
     let Ok(world) = threads.install(|| scene.world_at(frame)) else {
         return Ok(());
@@ -224,6 +231,21 @@ fn check_view(
     scene::warn(&warnings, &request.scene_path, &arguments.options, console)
 }
 
+/// The warning about an animation that is too fast for players.
+fn too_fast(request: &Request) -> Option<String> {
+    let Encoding::Animation(format, _) = request.encoding else {
+        return None;
+    };
+    let (rate, most) = (request.frames_per_second?, most_frames_per_second(format)?);
+    (rate > most && request.frames.count() > 1).then(|| {
+        let path = request.pattern.path(request.frames.first());
+        format!(
+            "{}: players show at most {most:.0} frames per second, but this loop has {rate}",
+            path.shown()
+        )
+    })
+}
+
 /// The name of the scene at `path`.
 fn name_of(path: &Path) -> &OsStr {
     path.file_stem().unwrap_or_default()
@@ -235,7 +257,7 @@ fn check_names(
     frames: &FrameList,
     output: Option<&Path>,
 ) -> Result<(), Failure> {
-    let is_animation = pattern.format() == Format::Apng;
+    let is_animation = matches!(pattern.format(), Format::Animation(_));
     if is_animation && pattern.is_numbered() {
         return Err(Failure::unusable(
             output.unwrap_or(Path::new("")),
@@ -275,16 +297,23 @@ fn check_outputs(request: &Request) -> Result<(), Failure> {
 /// The options of the format. Refuses options of other formats.
 fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Failure> {
     let output = match format {
-        Format::Png | Format::Apng => "PNG",
+        Format::Png | Format::Animation(AnimationFormat::Apng) => "PNG",
+        Format::Animation(AnimationFormat::Gif) => "GIF",
+        Format::Animation(AnimationFormat::Webp) => "WebP",
         Format::Exr => "EXR",
         Format::Npy => "NPY",
+        Format::Tiff => "TIFF",
     };
     for (is_given, option, formats) in [
         (arguments.bits.is_some(), "--bits", &["PNG"][..]),
-        (arguments.rgb, "--rgb", &["PNG"]),
+        (arguments.rgb, "--rgb", &["PNG", "TIFF"]),
         (arguments.linear, "--linear", &["PNG"]),
-        (arguments.exposure.is_some(), "--exposure", &["PNG"]),
-        (arguments.float, "--float", &["EXR"]),
+        (
+            arguments.exposure.is_some(),
+            "--exposure",
+            &["PNG", "TIFF", "GIF", "WebP"],
+        ),
+        (arguments.float, "--float", &["EXR", "TIFF"]),
         (arguments.error_channel, "--error-channel", &["EXR", "NPY"]),
         (
             !arguments.channels.is_empty(),
@@ -298,10 +327,19 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         ),
     ] {
         if is_given && !formats.contains(&output) {
-            let formats = formats.join(" and ");
+            let formats = match formats {
+                [others @ .., last] if !others.is_empty() => {
+                    format!("{} and {last}", others.join(", "))
+                }
+                _ => formats.concat(),
+            };
             let message = format!("{option} is for {formats} files, but the output is {output}");
             return Err(Failure::Usage(message));
         }
+    }
+    if arguments.exposure.is_some() && arguments.float {
+        let message = "--exposure is for codes, but --float writes the light itself";
+        return Err(Failure::Usage(message.to_owned()));
     }
     if arguments.linear && arguments.bits == Some(8) {
         let message = "--linear writes 16 bits, but --bits asks for 8";
@@ -312,21 +350,22 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         (arguments.sidecar, "--sidecar"),
         (arguments.per_light.is_some(), "--per-light"),
     ] {
-        if is_given && format == Format::Apng {
+        if is_given && matches!(format, Format::Animation(_)) {
             let message =
                 format!("{option} needs one file per frame, but this output contains all frames");
             return Err(Failure::Usage(message));
         }
     }
+    let gain = libm::exp2(arguments.exposure.unwrap_or(0.0));
     let png = PngOptions {
         deep: arguments.bits == Some(16),
         rgb: arguments.rgb,
         linear: arguments.linear,
-        gain: libm::exp2(arguments.exposure.unwrap_or(0.0)),
+        gain,
     };
     Ok(match format {
         Format::Png => Encoding::Png(png),
-        Format::Apng => Encoding::Apng(png),
+        Format::Animation(format) => Encoding::Animation(format, png),
         Format::Exr => Encoding::Exr(ExrOptions {
             // Many readers convert all channels to the type of the first.
             float: arguments.float || !arguments.channels.is_empty(),
@@ -334,6 +373,11 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         }),
         Format::Npy => Encoding::Npy(NpyOptions {
             error: arguments.error_channel,
+        }),
+        Format::Tiff => Encoding::Tiff(TiffOptions {
+            float: arguments.float,
+            rgb: arguments.rgb,
+            gain,
         }),
     })
 }

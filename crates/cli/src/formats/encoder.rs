@@ -7,15 +7,16 @@ use ::exr::block::chunk::Chunk;
 use blake3::Hash;
 use marbles_core::{Geometry, GeometrySettings, Image, Precision, Rendering, Summary};
 
-use super::encoding::Encoding;
+use super::encoding::{AnimationFormat, Encoding};
 use super::exr::blocks::{Blocks, ROWS_OF_A_BLOCK};
 use super::exr::write::write_blocks;
 use super::facts::Facts;
 use super::form::Form;
 use super::npy::files::Files;
-use super::png::animation::{Animation, delay};
+use super::npy::stamp::Stamp;
 use super::png::shape::Shape;
 use super::png::write::{texts, write};
+use super::{loops, tiff};
 use crate::files::save::{Fault, Unwritten, finish, save};
 use crate::files::temporary::TemporaryFile;
 
@@ -33,9 +34,12 @@ pub(super) enum Layout {
         shape: Shape,
         /// See [`PngOptions`](super::encoding::PngOptions).
         gain: f64,
+        /// The format of a file that has all pictures of a sequence.
+        animation: Option<AnimationFormat>,
     },
     Exr(Box<Blocks>),
     Npy(Files),
+    Tiff(tiff::Strips),
 }
 
 /// A part of a file, made from a strip.
@@ -51,12 +55,19 @@ impl Encoder {
     /// The encoder of pictures with these additional layers, which only an EXR can have.
     pub(crate) fn new(encoding: Encoding, form: Form, layers: &[String]) -> Self {
         let layout = match encoding {
-            Encoding::Png(options) | Encoding::Apng(options) => Layout::Png {
+            Encoding::Png(options) => Layout::Png {
                 shape: Shape::of(&form, options),
                 gain: options.gain,
+                animation: None,
+            },
+            Encoding::Animation(format, options) => Layout::Png {
+                shape: Shape::of(&form, options),
+                gain: options.gain,
+                animation: Some(format),
             },
             Encoding::Exr(options) => Layout::Exr(Box::new(Blocks::new(&form, options, layers))),
             Encoding::Npy(options) => Layout::Npy(Files::new(&form, options)),
+            Encoding::Tiff(options) => Layout::Tiff(tiff::Strips::new(&form, options)),
         };
         Self { form, layout }
     }
@@ -65,7 +76,7 @@ impl Encoder {
     pub(crate) fn layers(&self) -> usize {
         match &self.layout {
             Layout::Exr(blocks) => blocks.layers(),
-            Layout::Png { .. } | Layout::Npy(_) => 1,
+            Layout::Png { .. } | Layout::Npy(_) | Layout::Tiff(_) => 1,
         }
     }
 
@@ -92,7 +103,7 @@ impl Encoder {
         let samples = self.sample_bytes(0) as u64;
         match self.layout {
             Layout::Png { .. } | Layout::Npy(_) => samples,
-            Layout::Exr(_) => COPIES_OF_A_BLOCK * samples,
+            Layout::Exr(_) | Layout::Tiff(_) => COPIES_OF_A_BLOCK * samples,
         }
     }
 
@@ -103,12 +114,14 @@ impl Encoder {
             Layout::Png { shape, .. } => shape.row_bytes(),
             Layout::Exr(blocks) => blocks.row_bytes(),
             Layout::Npy(files) => files.row_bytes(),
+            Layout::Tiff(strips) => strips.shape.row_bytes(),
         };
         rows as usize * row_bytes
     }
 
     /// Copies rows of a layer's image to their positions in a strip with the same rows, starting at the column `col`.
-    /// Returns how many pixels of a PNG were clipped, or how many finite numbers were too large for an EXR.
+    /// Returns how many pixels were clipped, if the largest code stands for white, or else how many finite numbers were
+    /// too large for the file.
     pub(crate) fn encode(
         &self,
         layer: usize,
@@ -118,12 +131,13 @@ impl Encoder {
         rows: Range<u32>,
     ) -> u64 {
         match &self.layout {
-            Layout::Png { shape, gain } => shape.encode(samples, col, image, rows, *gain),
+            Layout::Png { shape, gain, .. } => shape.encode(samples, col, image, rows, *gain),
             Layout::Exr(blocks) => blocks.encode(layer, samples, col, image, rows),
             Layout::Npy(files) => {
                 files.encode(samples, col, image, rows);
                 0
             }
+            Layout::Tiff(strips) => strips.encode(samples, col, image, rows),
         }
     }
 
@@ -131,7 +145,7 @@ impl Encoder {
     pub(crate) fn geometry(&self) -> Option<GeometrySettings> {
         let centers = self.form.centers?;
         let precision = match self.layout {
-            Layout::Png { .. } | Layout::Exr(_) => Precision::Single,
+            Layout::Png { .. } | Layout::Exr(_) | Layout::Tiff(_) => Precision::Single,
             Layout::Npy(_) => Precision::Double,
         };
         Some(centers.settings(precision))
@@ -140,8 +154,8 @@ impl Encoder {
     /// Copies the center values of the pixels of a strip to their positions, starting at the column `col`.
     pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
         match &self.layout {
-            // It has no such channels.
-            Layout::Png { .. } => {}
+            // They have no such channels.
+            Layout::Png { .. } | Layout::Tiff(_) => {}
             Layout::Exr(blocks) => blocks.encode_geometry(samples, col, geometry),
             Layout::Npy(files) => files.encode_geometry(samples, col, geometry),
         }
@@ -152,6 +166,7 @@ impl Encoder {
         match &self.layout {
             Layout::Png { .. } | Layout::Npy(_) => Piece::Samples(samples),
             Layout::Exr(blocks) => Piece::Block(blocks.compress(index, samples)),
+            Layout::Tiff(strips) => Piece::Samples(strips.shape.compress(samples)),
         }
     }
 
@@ -159,7 +174,9 @@ impl Encoder {
     /// file is `digest`.
     pub(crate) fn files(&self, path: &Path, digest: &Hash) -> Vec<(PathBuf, Hash)> {
         match &self.layout {
-            Layout::Png { .. } | Layout::Exr(_) => vec![(path.to_owned(), *digest)],
+            Layout::Png { .. } | Layout::Exr(_) | Layout::Tiff(_) => {
+                vec![(path.to_owned(), *digest)]
+            }
             Layout::Npy(files) => files.digests(path, digest),
         }
     }
@@ -195,6 +212,15 @@ impl Encoder {
                 let strips = self.pieces();
                 files.write(path, file, &facts.digest, strips, || samples(next()))
             }
+            Layout::Tiff(strips) => {
+                let (shape, rows) = (strips.shape, self.rows());
+                let stamp = Stamp {
+                    digest: facts.digest,
+                    region: self.form.region,
+                };
+                tiff::write::write(file.file(), shape, rows, &stamp, || samples(next()))
+                    .map(|()| file)
+            }
         };
         finish(path, written.and_then(|file| complete().map(|()| file)))
     }
@@ -202,7 +228,7 @@ impl Encoder {
     /// Writes a file with a number of pictures to `path`, completely or not at all. `written` is called after each
     /// picture; if it returns `None`, nothing is written.
     ///
-    /// The file is an animated PNG that repeats forever, with this number of frames per second, if known.
+    /// The pictures repeat forever, with this number of frames per second, if known.
     pub(crate) fn write_animation(
         &self,
         path: &Path,
@@ -211,16 +237,20 @@ impl Encoder {
         mut next: impl FnMut() -> Option<Piece>,
         mut written: impl FnMut() -> Option<()>,
     ) -> Result<(), Unwritten> {
-        let Layout::Png { shape, .. } = &self.layout else {
+        let Layout::Png {
+            shape,
+            animation: Some(format),
+            ..
+        } = self.layout
+        else {
             // Other formats have no animations.
             return Err(Unwritten::Stopped);
         };
         save(path, |mut file| {
-            let delay = delay(frames_per_second);
-            let mut animation = Animation::begin(file.file(), *shape, frames, delay)?;
+            let mut animation = loops::begin(format, &mut file, shape, frames, frames_per_second)?;
             for _ in 0..frames {
                 for _ in 0..self.pieces() {
-                    animation.add_samples(&samples(next())?);
+                    animation.add_samples(&samples(next())?)?;
                 }
                 animation.end_frame()?;
                 written().ok_or(Fault::Stopped)?;
@@ -231,7 +261,7 @@ impl Encoder {
     }
 }
 
-/// The samples of a piece of a PNG or of NPY files.
+/// The bytes of a piece of a PNG, of NPY files or of a TIFF.
 pub(super) fn samples(piece: Option<Piece>) -> Result<Vec<u8>, Fault> {
     match piece {
         Some(Piece::Samples(samples)) => Ok(samples),

@@ -6,35 +6,39 @@ use std::path::Path;
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Format {
     Png,
-    /// All frames in one file, an animated PNG.
-    Apng,
+    /// All frames in one file.
+    Animation(AnimationFormat),
     Exr,
     Npy,
+    Tiff,
+}
+
+/// A format for all frames of a sequence in one file, which plays in a loop.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum AnimationFormat {
+    /// Animated PNG.
+    Apng,
+    Gif,
+    Webp,
 }
 
 impl Format {
     /// The format for an extension.
     pub(crate) fn of(name: &str) -> Option<Self> {
-        const ENDINGS: [(&str, Format); 4] = [
+        const ENDINGS: [(&str, Format); 8] = [
             ("png", Format::Png),
-            ("apng", Format::Apng),
+            ("apng", Format::Animation(AnimationFormat::Apng)),
+            ("gif", Format::Animation(AnimationFormat::Gif)),
+            ("webp", Format::Animation(AnimationFormat::Webp)),
             ("exr", Format::Exr),
             ("npy", Format::Npy),
+            ("tif", Format::Tiff),
+            ("tiff", Format::Tiff),
         ];
         let (_, ending) = name.rsplit_once('.')?;
         ENDINGS
             .into_iter()
             .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
-    }
-
-    /// Its name.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Png => "PNG",
-            Self::Apng => "APNG",
-            Self::Exr => "EXR",
-            Self::Npy => "NPY",
-        }
     }
 
     /// The format for the extension of a file name.
@@ -48,9 +52,21 @@ impl Format {
 pub(crate) enum Encoding {
     Png(PngOptions),
     /// All pictures of a sequence in one file.
-    Apng(PngOptions),
+    Animation(AnimationFormat, PngOptions),
     Exr(ExrOptions),
     Npy(NpyOptions),
+    Tiff(TiffOptions),
+}
+
+impl Encoding {
+    /// Returns whether files contain codes. The largest code stands for white and all brighter light.
+    pub(crate) fn has_white(self) -> bool {
+        match self {
+            Self::Png(_) | Self::Animation(..) => true,
+            Self::Tiff(options) => !options.float,
+            Self::Exr(_) | Self::Npy(_) => false,
+        }
+    }
 }
 
 /// The settings for writing a PNG file.
@@ -80,4 +96,15 @@ pub(crate) struct ExrOptions {
 pub(crate) struct NpyOptions {
     /// A second file with the error of each pixel.
     pub(crate) error: bool,
+}
+
+/// The settings for writing a TIFF file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TiffOptions {
+    /// Light in single precision instead of linear codes with 16 bits.
+    pub(crate) float: bool,
+    /// Three channels even for gray pictures.
+    pub(crate) rgb: bool,
+    /// The factor by which light is multiplied before it is converted to codes with 16 bits; above 0.
+    pub(crate) gain: f64,
 }

@@ -1,5 +1,6 @@
-//! Picture formats: PNG, single and animated, EXR and NPY, each with writing and reading.
+//! Picture formats: PNG, GIF, WebP, EXR, NPY and TIFF, each with writing and reading, and others that are only read.
 
+mod animation;
 pub(crate) mod center_channels;
 pub(crate) mod encoder;
 pub(crate) mod encoding;
@@ -7,14 +8,22 @@ pub(crate) mod exr;
 pub(crate) mod facts;
 pub(crate) mod form;
 pub(crate) mod frame_rate;
+mod gif;
+mod guard;
 mod half;
 pub(crate) mod load;
+pub(crate) mod loops;
 pub(crate) mod mat;
 pub(crate) mod npy;
+mod numbers;
+mod others;
 pub(crate) mod picture;
 pub(crate) mod png;
+mod profile;
 pub(crate) mod rows;
 pub(crate) mod sidecar;
 mod source;
 #[cfg(test)]
 pub(crate) mod tests;
+pub(crate) mod tiff;
+mod webp;

@@ -5,10 +5,12 @@
 
 use std::any::Any;
 use std::ops::Range;
+use std::path::Path;
 
 use crate::base::failure::lower;
+use crate::base::shown::Shown;
 use crate::base::size::{LONGEST_SIDE, Size};
-use crate::formats::encoding::Format;
+use crate::terminal::console::Console;
 
 /// A picture that is being read: linear light, premultiplied by alpha.
 ///
@@ -18,7 +20,8 @@ pub(crate) struct Picture {
     /// Whether there is one channel of light instead of three.
     pub(crate) grey: bool,
     pub(crate) alpha: bool,
-    pub(crate) format: Format,
+    /// The name of its format.
+    pub(crate) format: &'static str,
     /// The description of the file for people: `PNG, 8 bit sRGB, gray`.
     pub(crate) description: String,
     /// A warning about contents that were ignored.
@@ -65,6 +68,13 @@ pub(crate) trait Samples: Any {
 }
 
 impl Picture {
+    /// Prints the warning about the file at `path`, if there is one.
+    pub(crate) fn warn(&self, path: &Path, console: &Console) {
+        if let Some(warning) = self.warning {
+            console.warn(&format!("{}: {warning}", path.shown()));
+        }
+    }
+
     /// Goes on to the next row; see [`Samples::advance`].
     pub(crate) fn advance(&mut self) -> Result<(), String> {
         let row = self.row.advance();
@@ -73,8 +83,8 @@ impl Picture {
 }
 
 /// The message about an unusable file, with the reason.
-pub(super) fn unusable(format: Format, reason: &str) -> String {
-    format!("not a usable {}: {}", format.name(), lower(reason))
+pub(super) fn unusable(format: &str, reason: &str) -> String {
+    format!("not a usable {format}: {}", lower(reason))
 }
 
 /// The size of a picture, if it is allowed.

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use ::exr::meta::header::Header;
 use blake3::Hash;
+use marbles_core::Rendering;
 
 use super::encoding::Format;
 use super::exr::header::add_achieved;
@@ -15,7 +16,7 @@ use super::npy::stamp::Stamp;
 use super::npy::write::write_array;
 use super::png::shape::Shape;
 use super::png::write::{texts, write};
-use super::{exr, npy, png};
+use super::{exr, npy, png, tiff};
 use crate::base::failure::{Failure, lower};
 use crate::base::region::Region;
 use crate::base::size::Size;
@@ -27,6 +28,7 @@ pub(crate) enum Kind {
     Png(Shape),
     Exr(Box<Header>),
     Npy(Array),
+    Tiff(tiff::shape::Shape),
 }
 
 /// A file that is being read.
@@ -34,6 +36,7 @@ pub(crate) enum RowReader {
     Png(Box<png::rows::Rows>),
     Exr(Box<exr::rows::Rows>),
     Npy(Box<npy::rows::Rows>),
+    Tiff(Box<tiff::rows::Rows>),
 }
 
 impl Kind {
@@ -42,6 +45,7 @@ impl Kind {
             Self::Png(_) => Format::Png,
             Self::Exr(_) => Format::Exr,
             Self::Npy(_) => Format::Npy,
+            Self::Tiff(_) => Format::Tiff,
         }
     }
 
@@ -52,12 +56,13 @@ impl Kind {
         }
     }
 
-    /// Bytes per sample: of a whole pixel in a PNG or NPY; of a channel in an EXR, whose rows store one channel after
+    /// Bytes per sample: of a whole pixel in a PNG, NPY or TIFF; of a channel in an EXR, whose rows store one channel after
     /// the other.
     pub(crate) fn sample_bytes(&self) -> Vec<usize> {
         match self {
             Self::Png(shape) => vec![shape.pixel_bytes()],
             Self::Npy(array) => vec![array.pixel_bytes()],
+            Self::Tiff(shape) => vec![shape.pixel_bytes()],
             Self::Exr(header) => {
                 let channels = header.channels.list.iter();
                 channels
@@ -100,6 +105,21 @@ impl Kind {
                 };
                 write_array(path, &array.resized(size), Some(&stamp), samples)
             }
+            Self::Tiff(shape) => save(path, |mut file| {
+                let shape = shape.resized(size);
+                let stamp = Stamp {
+                    digest: *digest,
+                    region: Region::all(size),
+                };
+                let mut strips = (0..size.height).step_by(Rendering::ROW_STEP as usize);
+                let next = || {
+                    let first = strips.next().unwrap_or_default();
+                    let rows = first..size.height.min(first + Rendering::ROW_STEP);
+                    Ok(shape.compress(samples(rows)?))
+                };
+                tiff::write::write(file.file(), shape, Rendering::ROW_STEP, &stamp, next)?;
+                Ok(file)
+            }),
         };
         Ok(saved?)
     }
@@ -119,8 +139,11 @@ impl RowReader {
                 rows.map(Self::Exr).map_err(|error| error.to_string())
             }
             Some(Format::Npy) => npy::rows::Rows::begin(file()?).map(Box::new).map(Self::Npy),
-            Some(Format::Apng) | None => {
-                return Err("expected a file name that ends in .png, .exr or .npy".to_owned());
+            Some(Format::Tiff) => tiff::rows::Rows::begin(file()?)
+                .map(Box::new)
+                .map(Self::Tiff),
+            Some(Format::Animation(_)) | None => {
+                return Err("expected a file name that ends in .png, .exr, .npy or .tif".to_owned());
             }
         };
         opened.map_err(|error| lower(&error))
@@ -131,6 +154,7 @@ impl RowReader {
             Self::Png(rows) => Kind::Png(rows.shape()),
             Self::Exr(rows) => Kind::Exr(Box::new(rows.header().clone())),
             Self::Npy(rows) => Kind::Npy(rows.array()),
+            Self::Tiff(rows) => Kind::Tiff(rows.shape()),
         }
     }
 
@@ -140,6 +164,7 @@ impl RowReader {
             Self::Png(rows) => rows.next().map_err(|error| error.to_string()),
             Self::Exr(rows) => rows.next().map_err(|error| error.to_string()),
             Self::Npy(rows) => rows.next().map_err(|error| error.to_string()),
+            Self::Tiff(rows) => rows.next(),
         };
         Ok(row?.ok_or("it ends early")?)
     }

@@ -11,11 +11,13 @@ use marbles_core::{
 };
 
 use super::encoder::{Encoder, Layout, block, samples};
-use super::encoding::{Encoding, ExrOptions, PngOptions};
+use super::encoding::{Encoding, ExrOptions, PngOptions, TiffOptions};
 use super::exr::write::write_blocks;
 use super::facts::Facts;
 use super::form::Form;
+use super::npy::stamp::Stamp;
 use super::png::write::{compress, texts};
+use super::tiff;
 use crate::base::region::Region;
 use crate::base::size::Size;
 
@@ -33,6 +35,16 @@ pub(super) const DIGEST: Hash = Hash::from_bytes([0x5a; 32]);
 /// The bytes of a PNG file.
 pub(super) fn png_bytes(image: &Image, options: PngOptions) -> Vec<u8> {
     encode(image, Encoding::Png(options), &facts()).0
+}
+
+/// The bytes of a TIFF file.
+pub(super) fn tiff_bytes(image: &Image, float: bool) -> Vec<u8> {
+    let options = TiffOptions {
+        float,
+        rgb: false,
+        gain: 1.0,
+    };
+    encode(image, Encoding::Tiff(options), &facts()).0
 }
 
 /// The bytes of an EXR file.
@@ -88,6 +100,14 @@ pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u
         Layout::Exr(blocks) => {
             let next = || block(pieces.next());
             write_blocks(&mut file, blocks, facts, next, || Some(image.summary())).unwrap();
+        }
+        Layout::Tiff(strips) => {
+            let stamp = Stamp {
+                digest: facts.digest,
+                region: form.region,
+            };
+            let next = || samples(pieces.next());
+            tiff::write::write(&mut file, strips.shape, encoder.rows(), &stamp, next).unwrap();
         }
         Layout::Npy(_) => panic!("these are several files"),
     }

@@ -12,7 +12,7 @@ use marbles_core::{
 use rayon::prelude::*;
 
 use crate::formats::center_channels::{CenterChannels, name_of};
-use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions};
+use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions, TiffOptions};
 
 /// The context of the hash. It must change whenever the hashed data changes its meaning, or the same scene makes
 /// different pictures.
@@ -232,7 +232,7 @@ impl Feed {
     fn encoding(&mut self, encoding: Encoding) {
         match encoding {
             // An animated one keeps no digest.
-            Encoding::Png(options) | Encoding::Apng(options) => {
+            Encoding::Png(options) | Encoding::Animation(_, options) => {
                 let PngOptions {
                     deep,
                     rgb,
@@ -253,6 +253,12 @@ impl Feed {
             Encoding::Npy(NpyOptions { error }) => {
                 self.integer(2);
                 self.integer(error);
+            }
+            Encoding::Tiff(TiffOptions { float, rgb, gain }) => {
+                self.integer(3);
+                self.integer(float);
+                self.integer(rgb);
+                self.number(gain);
             }
         }
     }

@@ -30,7 +30,10 @@ impl Pattern {
     pub(crate) fn parse(path: &Path) -> Result<Self, String> {
         let wrong_ending = || {
             let path = path.shown();
-            format!("expected a file name that ends in .png, .apng, .exr or .npy, found `{path}`")
+            format!(
+                "expected a file name that ends in .png, .exr, .npy, .tif, .tiff, .apng, .gif or \
+                 .webp, found `{path}`"
+            )
         };
         // A trailing slash means a folder, which `file_name` would overlook.
         let bytes = path.as_os_str().as_encoded_bytes();

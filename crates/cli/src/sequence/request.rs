@@ -56,7 +56,7 @@ impl Request {
 
     /// Returns whether all frames go into one file.
     pub(crate) fn is_animation(&self) -> bool {
-        matches!(self.encoding, Encoding::Apng(_))
+        matches!(self.encoding, Encoding::Animation(..))
     }
 
     /// The view of a frame, in the requested size.

@@ -194,8 +194,8 @@ impl<'a> Source<'a> {
                 frame,
                 // Other files do not tell it, and an animated one keeps no digest.
                 frames_per_second: match request.encoding {
-                    Encoding::Png(_) | Encoding::Apng(_) | Encoding::Npy(_) => None,
                     Encoding::Exr(_) => request.frames_per_second,
+                    _ => None,
                 },
             }),
         };

@@ -15,7 +15,6 @@ use super::strip_encoder::Finished;
 use crate::base::failure::Failure;
 use crate::base::shown::Shown;
 use crate::files::save::{Fault, Unwritten, write_bytes};
-use crate::formats::encoding::Encoding;
 use crate::formats::facts::Facts;
 use crate::formats::sidecar::{self, Sidecar};
 use crate::terminal::lines::Frame;
@@ -99,9 +98,9 @@ fn write_file(
         ..summary
     };
     let shown = path.shown();
-    let (clipped, too_large) = match request.encoding {
-        Encoding::Png(_) | Encoding::Apng(_) => (results.clipped, 0),
-        Encoding::Exr(_) | Encoding::Npy(_) => (0, results.clipped),
+    let (clipped, too_large) = match request.encoding.has_white() {
+        true => (results.clipped, 0),
+        false => (0, results.clipped),
     };
     progress.result(&messages::result(&shown, &summary, clipped, time));
     if too_large > 0 {

@@ -1,4 +1,4 @@
-//! Animated PNG.
+//! Animated PNG, and what all loops have in common.
 
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -118,23 +118,43 @@ fn frames_are_chosen_as_for_files() {
     );
 }
 
+/// The endings of loops.
+const ENDINGS: [&str; 3] = ["apng", "gif", "webp"];
+
 #[test]
 fn loops_are_neither_resumed_nor_shared_by_tasks() {
     let folder = Folder::new();
-    for (arguments, message) in [
-        (
-            "render ball.ron -o turn.apng --skip-existing",
-            "--skip-existing needs one file per frame, but this output contains all frames",
-        ),
-        (
-            "farm slurm ball.ron -o turn.apng",
-            "a task writes one file per frame, but this output contains all frames",
-        ),
-    ] {
-        let output = folder.run(arguments);
-        assert_eq!(code(&output), 2, "{arguments}");
-        assert_eq!(text(&output.stdout), "");
-        assert_eq!(text(&output.stderr), format!("marbles: {message}\n"));
+    let one_frame = "needs one file per frame, but this output contains all frames";
+    for ending in ENDINGS {
+        for (arguments, message) in [
+            (
+                "render ball.ron --skip-existing -o turn",
+                format!("--skip-existing {one_frame}"),
+            ),
+            (
+                "render ball.ron --sidecar -o turn",
+                format!("--sidecar {one_frame}"),
+            ),
+            (
+                "render ball.ron --per-light -o turn",
+                format!("--per-light {one_frame}"),
+            ),
+            (
+                "farm slurm ball.ron -o turn",
+                "a task writes one file per frame, but this output contains all frames".to_owned(),
+            ),
+            (
+                "render roll.ron -o turn.##",
+                format!(
+                    "turn.##.{ending}: all frames are one file, whose name has no place for their number"
+                ),
+            ),
+        ] {
+            let output = folder.run(&format!("{arguments}.{ending}"));
+            assert_eq!(code(&output), 2, "{arguments}");
+            assert_eq!(text(&output.stdout), "");
+            assert_eq!(text(&output.stderr), format!("marbles: {message}\n"));
+        }
     }
     assert_eq!(folder.names("."), ["ball.ron"]);
 }
@@ -154,59 +174,69 @@ fn without_all_frames_there_is_no_loop() {
 )
 ";
     fs::write(folder.path("through.ron"), through).unwrap();
-    fs::write(folder.path("through.apng"), "what was there").unwrap();
-    let output = folder.run("render through.ron -o through.apng");
-    assert_eq!(code(&output), 1);
-    assert_eq!(text(&output.stdout), "");
-    let errors = text(&output.stderr);
-    assert!(errors.contains(".ron: frame 3: "), "{errors}");
-    // What comes after it is not rendered for nothing.
-    for frame in [4, 5] {
-        let line = format!("frame {frame}: ");
-        assert!(!errors.contains(&line), "{errors}");
+    for ending in ENDINGS {
+        let name = format!("through.{ending}");
+        fs::write(folder.path(&name), "what was there").unwrap();
+        let output = folder.run(&format!("render through.ron -o {name}"));
+        assert_eq!(code(&output), 1);
+        assert_eq!(text(&output.stdout), "");
+        let errors = text(&output.stderr);
+        assert!(errors.contains(".ron: frame 3: "), "{errors}");
+        // What comes after it is not rendered for nothing.
+        for frame in [4, 5] {
+            let line = format!("frame {frame}: ");
+            assert!(!errors.contains(&line), "{errors}");
+        }
+        assert!(
+            errors.ends_with("marbles: 0 of 5 frames written, failed: 3\n"),
+            "{errors}"
+        );
+        let mut names = ["ball.ron", &*name, "through.ron"];
+        names.sort_unstable();
+        assert_eq!(folder.names("."), names);
+        assert_eq!(folder.read(&name), b"what was there");
+        fs::remove_file(folder.path(&name)).unwrap();
     }
-    assert!(
-        errors.ends_with("marbles: 0 of 5 frames written, failed: 3\n"),
-        "{errors}"
-    );
-    assert_eq!(
-        folder.names("."),
-        ["ball.ron", "through.apng", "through.ron"]
-    );
-    assert_eq!(folder.read("through.apng"), b"what was there");
 }
 
 #[test]
 fn an_interrupted_loop_leaves_nothing() {
-    let folder = Folder::new();
-    let mut child = folder
-        .marbles("render roll.ron -o out/a.apng --frames 1-600 --size 150x150 --samples 12")
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let is_begun = |name: &String| folder.path("out").join(name).metadata().unwrap().len() > 0;
-    wait_until("a frame", || folder.names("out").iter().any(is_begun));
-    let (code, time) = interrupt(&mut child);
-    assert_eq!(code, Some(130));
-    assert!(time < Duration::from_secs(1), "{time:?}");
-    assert!(folder.names("out").is_empty());
+    for ending in ENDINGS {
+        let folder = Folder::new();
+        let mut child = folder
+            .marbles(&format!(
+                "render roll.ron -o out/a.{ending} --frames 1-600 --size 150x150 --samples 12"
+            ))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let is_begun = |name: &String| folder.path("out").join(name).metadata().unwrap().len() > 0;
+        wait_until("a frame", || folder.names("out").iter().any(is_begun));
+        let (code, time) = interrupt(&mut child);
+        assert_eq!(code, Some(130));
+        assert!(time < Duration::from_secs(1), "{time:?}");
+        assert!(folder.names("out").is_empty());
+    }
 }
 
 #[test]
 fn a_loop_that_a_disk_has_no_room_for_leaves_nothing() {
-    let folder = Folder::new();
-    let arguments = "render roll.ron -o out/a.apng --frames 1-60 --size 99x99";
-    let Some(output) = run_on_file_system(&folder, "size=32k", arguments) else {
-        return;
-    };
-    assert_eq!(code(&output), 1);
-    // Where the names in the folder would be.
-    assert_eq!(text(&output.stdout), "");
-    let errors = text(&output.stderr);
-    let expected = "marbles: out/a.apng: cannot write the file: no space left on device\n";
-    assert!(errors.contains(expected), "{errors}");
-    // Some frames are complete in the file that is given up.
-    let last = errors.lines().last().unwrap();
-    assert_eq!(last, "marbles: 0 of 60 frames written, failed: 1-60");
+    for ending in ENDINGS {
+        let folder = Folder::new();
+        let arguments = format!("render roll.ron -o out/a.{ending} --frames 1-60 --size 99x99");
+        let Some(output) = run_on_file_system(&folder, "size=32k", &arguments) else {
+            return;
+        };
+        assert_eq!(code(&output), 1);
+        // Where the names in the folder would be.
+        assert_eq!(text(&output.stdout), "");
+        let errors = text(&output.stderr);
+        let expected =
+            format!("marbles: out/a.{ending}: cannot write the file: no space left on device\n");
+        assert!(errors.contains(&expected), "{errors}");
+        // Some frames are complete in the file that is given up.
+        let last = errors.lines().last().unwrap();
+        assert_eq!(last, "marbles: 0 of 60 frames written, failed: 1-60");
+    }
 }

@@ -21,6 +21,7 @@ mod left_out;
 #[cfg(target_os = "linux")]
 mod lights;
 mod limits;
+mod loops;
 mod memory;
 mod merge;
 #[cfg(unix)]
@@ -38,6 +39,7 @@ mod sidecar;
 mod signals;
 #[cfg(target_os = "linux")]
 mod terminal;
+mod tiff;
 
 use std::fs;
 

@@ -119,15 +119,15 @@ fn what_a_format_cannot_have_is_refused() {
         ),
         (
             "-o a.npy --exposure 1",
-            "--exposure is for PNG files, but the output is NPY",
+            "--exposure is for PNG, TIFF, GIF and WebP files, but the output is NPY",
         ),
         (
             "-o a.exr --exposure 0",
-            "--exposure is for PNG files, but the output is EXR",
+            "--exposure is for PNG, TIFF, GIF and WebP files, but the output is EXR",
         ),
         (
             "-o a.npy --float",
-            "--float is for EXR files, but the output is NPY",
+            "--float is for EXR and TIFF files, but the output is NPY",
         ),
         (
             "-o a.npy --bits 16",

@@ -4,6 +4,8 @@ pub(crate) mod averages;
 pub(crate) mod band;
 pub(crate) mod geometry;
 pub(crate) mod image;
+#[cfg(feature = "image")]
+mod image_buffers;
 pub(crate) mod pixel;
 pub(crate) mod plane;
 pub(crate) mod progress;

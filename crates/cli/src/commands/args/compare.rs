@@ -12,10 +12,15 @@ Examples:
   marbles compare a.exr b.exr --tolerance 1e-3        exit with 1 if a pixel differs by more
   marbles compare a.png b.png --diff diff.png         write a picture of the differences
 
-PNG codes are decoded to linear light and multiplied by alpha, as in EXR. A gray picture has three
-equal color channels, and alpha is 1 in a picture without alpha. The channel `error` of an EXR is not
-compared, because it is not light. An NPY is an array of height × width, or height × width × 1 to 4
-channels.
+A and B are PNG, EXR, NPY, TIFF, JPEG, WebP, GIF, Radiance HDR, PNM or PAM, TGA, BMP or QOI files. marbles
+recognizes the format by the content; only a TGA needs its extension. If a file is an animation, the first
+frame is read.
+
+sRGB codes are decoded to linear light and multiplied by alpha, as in EXR. Integers are sRGB codes,
+unless the file says that they are linear, as a TIFF of `marbles render` does. Floats and HDR pixels are
+light. A gray picture has three equal color channels, and alpha is 1 in a picture without alpha. The
+channel `error` of an EXR is not compared, because it is not light. An NPY is an array of height × width,
+or height × width × 1 to 4 channels.
 
 Rows of the result:
   largest     the largest difference of any channel of any pixel
@@ -38,11 +43,11 @@ Exit codes:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CompareArguments {
-    /// First picture: PNG, EXR or NPY
+    /// First picture
     #[arg(value_name = "A")]
     pub(crate) a: PathBuf,
 
-    /// Second picture: PNG, EXR or NPY
+    /// Second picture
     #[arg(value_name = "B")]
     pub(crate) b: PathBuf,
 

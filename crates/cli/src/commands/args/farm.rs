@@ -138,7 +138,7 @@ impl Args for GivenArguments {
         RenderArguments::augment_args(command).mut_arg("output", |output| {
             output.required(true).help(
                 "Names of the files; ####, %04d or {frame:04} stands for the frame number. The \
-                 extension .png, .exr or .npy chooses the format",
+                 extension .png, .exr, .npy or .tif chooses the format",
             )
         })
     }

@@ -11,6 +11,7 @@ const EXAMPLES: &str = "\
 Examples:
   marbles preview ball.ron                            show the first frame
   marbles preview ball.ron --frame 30 --watch         show frame 30 whenever ball.ron is saved
+  marbles preview photo.jpg                           show a picture, in any format that `marbles compare` reads
 
 The picture fills the terminal, with two pixels, one above the other, for each character. The
 terminal must support 24-bit color. Terminals with kitty's graphics protocol (kitty, Ghostty, WezTerm)
@@ -27,11 +28,11 @@ Exit codes:
   2  the command line or the scene file is wrong
   130  interrupted by Ctrl-C";
 
-/// Show a frame of a scene in the terminal
+/// Show a frame of a scene, or a picture, in the terminal
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct PreviewArguments {
-    /// Scene file
+    /// Scene file, or picture
     pub(crate) scene: PathBuf,
 
     #[command(flatten)]

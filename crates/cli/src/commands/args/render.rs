@@ -22,7 +22,8 @@ Examples:
   marbles render ball.ron --set camera.azimuth=30     another value in the scene
   marbles render ball.ron -o a.npy --error-channel    doubles for NumPy, their errors in a_error.npy
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
-  marbles render turn.ron -o turn.apng                a loop that browsers play
+  marbles render turn.ron -o turn.webp                a loop that browsers play; also turn.gif and turn.apng
+  marbles render ball.ron -o ball.tif                 16-bit TIFF, in proportion to light; floats with --float
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 samples per pixel
   marbles render ball.ron -o ball.exr --channels depth,normal,id
@@ -62,8 +63,8 @@ pub(crate) struct RenderArguments {
     pub(crate) options: SceneOptions,
 
     /// Names of the files; ####, %04d or {frame:04} stands for the frame number, {scene} for the name of the scene.
-    /// The extension .png, .exr or .npy chooses the format; .apng puts all frames into one animated PNG, which plays
-    /// in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
+    /// The extension .png, .exr, .npy or .tif chooses the format; .webp, .gif or .apng puts all frames into one file,
+    /// which plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 
@@ -132,16 +133,17 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) linear: bool,
 
-    /// Multiply light by 2^EV before it is converted to the codes of a PNG; tolerance and errors refer to the light
-    /// before the multiplication
+    /// Multiply light by 2^EV before it is converted to the codes of a PNG, GIF, WebP or TIFF; tolerance and errors
+    /// refer to the light before the multiplication
     #[arg(long, value_name = "EV", value_parser = exposure, allow_hyphen_values = true)]
     pub(crate) exposure: Option<f64>,
 
-    /// Write a PNG in color even if the scene is gray
+    /// Write a PNG or TIFF in color even if the scene is gray
     #[arg(long)]
     pub(crate) rgb: bool,
 
-    /// Write an EXR in single precision instead of half precision; --channels implies this
+    /// Write an EXR in single precision instead of half precision (--channels implies this), or a TIFF in single
+    /// precision instead of 16-bit codes
     #[arg(long)]
     pub(crate) float: bool,
 
@@ -170,7 +172,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "AXES", requires = "channels")]
     pub(crate) axes: Option<AxesForm>,
 
-    /// Write NAME.json next to each picture NAME.png or NAME.exr, with the camera as OpenCV's K, R and t, the
+    /// Write NAME.json next to each picture, for example NAME.png, with the camera as OpenCV's K, R and t, the
     /// lights, and the error
     #[arg(long)]
     pub(crate) sidecar: bool,

@@ -35,7 +35,7 @@ impl DifferencePicture {
         let holds_floats = match Format::of_file(path) {
             Some(Format::Png) => false,
             Some(Format::Exr) => true,
-            Some(Format::Apng | Format::Npy) | None => {
+            _ => {
                 return Err(Failure::Usage(format!(
                     "--diff: expected a file name that ends in .png or .exr, found `{}`",
                     path.shown()

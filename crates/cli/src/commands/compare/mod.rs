@@ -108,8 +108,6 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
 /// A picture, and a warning if some of its contents were ignored.
 fn load(path: &Path, console: &Console) -> Result<Picture, Failure> {
     let picture = load::picture(path)?;
-    if let Some(warning) = picture.warning {
-        console.warn(&format!("{}: {warning}", path.shown()));
-    }
+    picture.warn(path, console);
     Ok(picture)
 }

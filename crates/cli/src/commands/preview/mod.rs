@@ -1,9 +1,10 @@
-//! `marbles preview`: shows a frame in the terminal.
+//! `marbles preview`: shows a frame of a scene, or a picture, in the terminal.
 
 mod blocks;
 mod kitty;
 mod picture;
 mod screen;
+mod stored;
 mod watch;
 
 use self::picture::render;
@@ -22,6 +23,11 @@ const PROMPT_LINES: u32 = 2;
 
 pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8, Failure> {
     let screen = Screen::of(console)?;
+    if stored::is_picture(&arguments.scene) {
+        let picture = stored::load(arguments, &screen.area(PROMPT_LINES), console)?;
+        console.print(&screen.show(&picture)?);
+        return Ok(status::SUCCESS);
+    }
     let threads = threads::start(None)?;
     if arguments.watch {
         return threads.install(|| watch::run(arguments, &screen, console));
@@ -29,7 +35,7 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
     let scene =
         threads.install(|| scene::load(&arguments.scene, &arguments.options, console, false))?;
     let view = scene::view(&scene, &arguments.scene, arguments.frame)?;
-    let view = screen.area(PROMPT_LINES).fit(view);
+    let view = screen.area(PROMPT_LINES).fit(Size::of(&view)).resize(view);
     interrupt::listen(console);
     let progress = Progress::new(console, None, false, 1);
     progress.begin(0, Size::of(&view).pixels());

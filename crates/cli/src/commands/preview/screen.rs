@@ -4,7 +4,6 @@ use std::env;
 use std::io;
 
 use console::Term;
-use marbles_core::View;
 
 use super::picture::Picture;
 use super::{blocks, kitty};
@@ -115,17 +114,16 @@ impl Screen {
 }
 
 impl Area {
-    /// The view in the largest size that fits into the area with the proportions of the picture.
-    pub(super) fn fit(&self, view: View) -> View {
-        let (width, height) = (f64::from(view.width), f64::from(view.height));
+    /// The largest size that fits into the area with the proportions of `size`.
+    pub(super) fn fit(&self, size: Size) -> Size {
+        let (width, height) = (f64::from(size.width), f64::from(size.height));
         let scale = (f64::from(self.width) / width).min(f64::from(self.height) / height);
         let scale = if self.enlarges { scale } else { scale.min(1.0) };
         let side = |length: f64, most: u32| ((length * scale).round() as u32).clamp(1, most);
-        let size = Size {
+        Size {
             width: side(width, self.width),
             height: side(height, self.height),
-        };
-        size.resize(view)
+        }
     }
 }
 

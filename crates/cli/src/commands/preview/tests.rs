@@ -6,7 +6,6 @@ use marbles_scene::Scene;
 use super::picture::render;
 use super::screen::Area;
 use crate::base::size::Size;
-use crate::formats::tests::view;
 use crate::tests::{SCENE, run_here, temporary};
 
 #[test]
@@ -19,8 +18,8 @@ fn pictures_fill_the_area_one_way() {
             height,
             enlarges,
         };
-        let view = area.fit(size.resize(view()));
-        (view.width, view.height)
+        let size = area.fit(size);
+        (size.width, size.height)
     };
     assert_eq!(fit((600, 600), (80, 44), true), (44, 44));
     assert_eq!(fit((640, 400), (80, 60), true), (80, 50));
@@ -92,10 +91,62 @@ fn pixels_are_those_of_a_file() {
         height: 20,
         enlarges: true,
     };
-    let view = area.fit(scene.view(1).unwrap());
+    let view = scene.view(1).unwrap();
+    let view = area.fit(Size::of(&view)).resize(view);
     let picture = render((&scene, scene.world()), &view, 1e-2, None).unwrap();
     assert_eq!((picture.size.width, picture.size.height), (20, 20));
     assert_eq!(picture.codes.as_flattened(), codes);
     assert!(codes.iter().any(|&code| code > 100) && codes.contains(&0));
     fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn pictures_are_shown_as_scenes_are() {
+    let scene = temporary("preview_of_picture.ron");
+    fs::write(&scene, SCENE).unwrap();
+    let scene = scene.to_str().unwrap();
+    let (code, of_scene, _) = run_here(&["preview", scene, "--tolerance", "1e-4"]);
+    assert_eq!(code, 0);
+    // One pixel of the picture for each pixel of the text, or two by two, whose mean is the same.
+    let lines = of_scene.lines().count() as u32;
+    for (ending, factor, most) in [("png", 1, 0), ("webp", 1, 0), ("tif", 2, 3), ("npy", 2, 3)] {
+        let picture = temporary(&format!("preview_of_picture.{ending}"));
+        let picture = picture.to_str().unwrap();
+        let size = format!("{0}x{0}", 2 * factor * lines);
+        let (code, _, err) = run_here(&[
+            "render",
+            scene,
+            "-o",
+            picture,
+            "--size",
+            &size,
+            "--tolerance",
+            "1e-4",
+        ]);
+        assert_eq!((code, &*err), (0, ""));
+        let (code, out, err) = run_here(&["preview", picture]);
+        assert_eq!((code, &*err), (0, ""), "{ending}");
+        assert_eq!(codes(&out).len(), codes(&of_scene).len());
+        let pairs = codes(&out).into_iter().zip(codes(&of_scene));
+        for (found, expected) in pairs {
+            assert!(
+                found.abs_diff(expected) <= most,
+                "{ending}: {found} {expected}"
+            );
+        }
+        for option in ["--watch", "--frame=3", "--set=zoom=2"] {
+            let (code, _, err) = run_here(&["preview", picture, option]);
+            assert_eq!(code, 2);
+            assert!(
+                err.contains(" is for scenes, but this is a picture\n"),
+                "{err}"
+            );
+        }
+    }
+}
+
+/// The numbers in a text. Only the numbers of colors may differ.
+fn codes(text: &str) -> Vec<u32> {
+    let numbers = text.split(|letter: char| !letter.is_ascii_digit());
+    numbers.filter_map(|number| number.parse().ok()).collect()
 }

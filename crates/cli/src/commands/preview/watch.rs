@@ -16,6 +16,7 @@ use super::picture::{Picture, render};
 use super::screen::{Area, Screen};
 use crate::base::failure::Failure;
 use crate::base::shown::Shown;
+use crate::base::size::Size;
 use crate::base::status;
 use crate::commands::args::PreviewArguments;
 use crate::commands::scene;
@@ -77,7 +78,8 @@ fn look(
         Err(_) => {}
     }
     let scene = scene?;
-    let view = area.fit(scene::view(&scene, &arguments.scene, arguments.frame)?);
+    let view = scene::view(&scene, &arguments.scene, arguments.frame)?;
+    let view = area.fit(Size::of(&view)).resize(view);
     let world = scene::world(&scene, arguments.frame)?;
     Ok(render((&scene, &world), &view, arguments.tolerance, None))
 }

@@ -10,8 +10,8 @@ use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::Vec2;
 
-use super::guard::guarded;
 use crate::base::failure::reason;
+use crate::formats::guard::guarded;
 use crate::formats::source::Input;
 
 /// A file that is being read.

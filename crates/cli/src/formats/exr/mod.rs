@@ -5,7 +5,6 @@ mod block_reader;
 pub(crate) mod blocks;
 mod channels;
 mod data_window;
-mod guard;
 pub(super) mod header;
 pub(crate) mod read;
 pub(crate) mod rows;

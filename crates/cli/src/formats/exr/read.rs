@@ -11,9 +11,11 @@ use super::channels::choose;
 use super::data_window::{Channel, DataWindow};
 use crate::base::failure::reason;
 use crate::base::size::Size;
-use crate::formats::encoding::Format;
 use crate::formats::picture::{Picture, Samples, size_of};
 use crate::formats::source::Source;
+
+/// The name of the format.
+pub(crate) const NAME: &str = "EXR";
 
 /// The numbers of a row, channel by channel.
 struct Numbers {
@@ -65,7 +67,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
         size,
         grey: numbers.colors.len() == 1,
         alpha: numbers.alpha.is_some(),
-        format: Format::Exr,
+        format: NAME,
         description,
         warning: None,
         row: Box::new(numbers),

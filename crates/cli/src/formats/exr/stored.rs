@@ -9,11 +9,11 @@ use exr::prelude::AttributeValue;
 use marbles_core::Window;
 
 use super::block_reader::{BlockReader, meta_of};
-use super::guard::guarded;
 use super::header::DIGEST_ATTRIBUTE;
 use crate::base::failure::reason;
 use crate::base::region::Region;
 use crate::base::size::Size;
+use crate::formats::guard::guarded;
 use crate::formats::source::Input;
 
 /// The digest and the region of the picture in a file of one part.

@@ -8,19 +8,18 @@ use super::*;
 use crate::base::size::Size;
 use crate::formats::encoding::{ExrOptions, PngOptions};
 use crate::formats::png::write::write_grey;
-use crate::formats::tests::{DIGEST, PNG, Scene, exr_bytes, png_bytes, render, size};
+use crate::formats::tests::{DIGEST, PNG, Scene, exr_bytes, png_bytes, render, size, tiff_bytes};
 use crate::tests::temporary;
 
 #[test]
 fn refuses_what_is_no_picture() {
     let refusal = |bytes: &[u8]| decode(bytes).err().unwrap();
+    const EXPECTED: &str = "expected a picture (PNG, EXR, NPY, TIFF, JPEG, WebP, GIF, HDR, PNM, TGA, BMP \
+                            or QOI), found";
+    assert_eq!(refusal(b""), format!("{EXPECTED} an empty file"));
     assert_eq!(
-        refusal(b""),
-        "expected a PNG, EXR or NPY picture, found an empty file"
-    );
-    assert_eq!(
-        refusal(b"\xff\xd8\xff\xe0JFIF"),
-        "expected a PNG, EXR or NPY picture, found a file that begins with `\\xff\\xd8\\xff\\xe0`"
+        refusal(b"%PDF-1.7"),
+        format!("{EXPECTED} a file that begins with `%PDF`")
     );
 }
 
@@ -33,7 +32,8 @@ fn files() -> Vec<Vec<u8>> {
     let each = [false, true];
     let pngs = each.map(|deep| png_bytes(&image, PngOptions { deep, ..PNG }));
     let exrs = each.map(|float| exr_bytes(&image, ExrOptions { float, error: true }));
-    pngs.into_iter().chain(exrs).collect()
+    let tiffs = each.map(|float| tiff_bytes(&image, float));
+    pngs.into_iter().chain(exrs).chain(tiffs).collect()
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn pictures_that_end_early_or_late_are_not_whole() {
 
 #[test]
 fn an_exr_without_the_place_of_its_last_block_is_not_whole() {
-    for file in &files()[2..] {
+    for file in &files()[2..4] {
         let meta = MetaData::read_from_buffered(Cursor::new(&file), false).unwrap();
         let blocks = meta.headers[0].chunk_count;
         assert_eq!(blocks, 2);
@@ -113,7 +113,7 @@ fn pixels_of_a_png_have_a_checksum_of_their_own() {
 /// make shorter have none.
 #[test]
 fn samples_of_an_exr_are_as_good_as_their_checksum() {
-    for file in &files()[2..] {
+    for file in &files()[2..4] {
         let samples = |file: &[u8]| {
             let mut rows = decode(file).unwrap();
             let size = rows.size;
@@ -164,4 +164,30 @@ fn plain_blocks(file: &[u8], start: usize, header: &Header) -> Vec<Range<usize>>
         place = end;
     }
     plain
+}
+
+/// The strips of a TIFF have checksums, and the tags that say where they are have to be right.
+#[test]
+fn samples_of_a_tiff_are_as_good_as_their_checksum() {
+    for file in &files()[4..] {
+        let samples = |file: &[u8]| {
+            let picture = decode(file).unwrap().whole().unwrap();
+            picture.rgba.concat()
+        };
+        let description = file.windows(8).position(|bytes| bytes == b"Digest: ");
+        // Strips lie between the header and what the directory refers to, the kinds of the four samples first.
+        let end = description.unwrap() - 8;
+        let whole = samples(file);
+        let mut unnoticed = 0;
+        for place in 0..end {
+            let mut damaged = file.clone();
+            damaged[place] ^= 0x10;
+            if of(&damaged).is_some() {
+                // What deflate copies may come from several places.
+                assert_eq!(samples(&damaged), whole, "byte {place}");
+                unnoticed += 1;
+            }
+        }
+        assert!(100 * unnoticed <= end, "{unnoticed} of {end}");
+    }
 }

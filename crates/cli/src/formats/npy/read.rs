@@ -5,9 +5,11 @@ use std::io::{Read, Seek, SeekFrom};
 use super::array::{Array, Number};
 use super::header;
 use crate::base::failure::reason;
-use crate::formats::encoding::Format;
 use crate::formats::picture::{Picture, Samples, size_of};
 use crate::formats::source::{Input, Source};
+
+/// The name of the format.
+pub(crate) const NAME: &str = "NPY";
 
 /// The numbers of a file.
 struct Numbers {
@@ -46,7 +48,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
         size,
         grey: names.starts_with('Y'),
         alpha: names.ends_with('A'),
-        format: Format::Npy,
+        format: NAME,
         description: format!("NPY, {kind}, {names}"),
         warning: None,
         row: Box::new(Numbers {

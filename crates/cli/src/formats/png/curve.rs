@@ -24,6 +24,10 @@ pub(crate) enum Curve {
 }
 
 impl Curve {
+    /// The warning about a profile, whose function and colors may differ from sRGB.
+    pub(crate) const IGNORED_PROFILE: &str =
+        "its ICC profile is ignored: its colors are read as sRGB";
+
     /// The function according to the chunk with the highest priority, and a warning if it is not supported.
     ///
     /// Source: PNG, third edition, 4.3 "Color spaces". A file without such chunks is sRGB.
@@ -39,8 +43,7 @@ impl Curve {
             };
         }
         if info.icc_profile.is_some() {
-            let warning = "its ICC profile is ignored: its colors are read as sRGB";
-            return Ok((Self::Srgb, Some(warning)));
+            return Ok((Self::Srgb, Some(Self::IGNORED_PROFILE)));
         }
         let gamma = info.gama_chunk.map(png::ScaledFloat::into_scaled);
         let curve = match gamma {

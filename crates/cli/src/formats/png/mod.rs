@@ -1,7 +1,7 @@
 //! PNG.
 
 pub(crate) mod animation;
-mod curve;
+pub(crate) mod curve;
 mod decoder;
 mod lines;
 pub(crate) mod read;

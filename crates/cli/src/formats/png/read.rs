@@ -7,9 +7,11 @@ use png::{BitDepth, ColorType};
 
 use super::curve::Curve;
 use super::lines::{Lines, has_alpha, open};
-use crate::formats::encoding::Format;
 use crate::formats::picture::{Picture, Samples, size_of};
 use crate::formats::source::Source;
+
+/// The name of the format.
+pub(crate) const NAME: &str = "PNG";
 
 /// The codes of a file, and their light.
 struct Codes {
@@ -54,7 +56,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
         size,
         grey,
         alpha,
-        format: Format::Png,
+        format: NAME,
         description,
         warning,
         row: Box::new(Codes {

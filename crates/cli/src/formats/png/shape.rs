@@ -67,6 +67,16 @@ impl Shape {
         Self { size, ..self }
     }
 
+    /// The size of the picture.
+    pub(crate) fn size(self) -> Size {
+        self.size
+    }
+
+    /// The number of channels: colors, and alpha after them where there is one.
+    pub(crate) fn channels(self) -> usize {
+        self.color_type.samples()
+    }
+
     /// Bytes of a sample.
     fn sample_bytes(self) -> usize {
         if self.depth == BitDepth::Sixteen {

@@ -1,4 +1,5 @@
 use super::*;
+use crate::formats::encoding::AnimationFormat;
 
 fn name(pattern: &str, frame: i32) -> String {
     let pattern = Pattern::parse(Path::new(pattern)).unwrap();
@@ -46,11 +47,18 @@ fn endings_choose_the_format() {
     let format = |name: &str| Pattern::parse(Path::new(name)).unwrap().format();
     assert_eq!(format("a.PNG"), Format::Png);
     assert_eq!(format("a.b.Exr"), Format::Exr);
-    assert_eq!(format("a.png.apng"), Format::Apng);
+    assert_eq!(
+        format("a.png.apng"),
+        Format::Animation(AnimationFormat::Apng)
+    );
+    assert_eq!(format("a.Gif"), Format::Animation(AnimationFormat::Gif));
+    assert_eq!(format("a.webp"), Format::Animation(AnimationFormat::Webp));
     assert_eq!(format("a.NPY"), Format::Npy);
+    assert_eq!(format("a.tif"), Format::Tiff);
+    assert_eq!(format("a.tiff"), Format::Tiff);
     for wrong in ["a.jpg", "a", "png", "out/", "out.png/", "a.png.", ".."] {
         assert!(
-            refusal(wrong).contains("ends in .png, .apng, .exr or .npy"),
+            refusal(wrong).contains("ends in .png, .exr, .npy, .tif, .tiff, .apng, .gif or .webp"),
             "{wrong}"
         );
     }

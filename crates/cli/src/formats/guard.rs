@@ -11,7 +11,7 @@ thread_local! {
 
 /// Runs `read`, which may panic if a file is damaged. Turns a panic into an error, and prints nothing.
 ///
-/// The decoders of `exr` do not check some numbers of a block; `cargo mutate` finds files with invalid ones. After a
+/// The decoders of libraries do not check some numbers of a file; `cargo mutate` finds files with invalid ones. After a
 /// panic, anything that `read` has changed must not be used.
 pub(super) fn guarded<T, E: ToString>(read: impl FnOnce() -> Result<T, E>) -> Result<T, String> {
     static HOOK: Once = Once::new();

@@ -1,0 +1,8 @@
+//! GIF: pictures in one file, which are shown in a loop and share 256 colors.
+
+mod animation;
+mod dither;
+mod histogram;
+mod palette;
+
+pub(super) use self::animation::{Animation, MOST_FRAMES_PER_SECOND};
