@@ -147,7 +147,7 @@ fn other_forms_are_found_wrong() {
     }
 }
 
-/// Of 360,000 tests none needed more than doubles, and of 3,600,000 tests 7, when this was written.
+/// When this was written, none of 360,000 tests needed more than doubles, and 7 of 3,600,000 did.
 #[test]
 fn ordinary_frames_stay_on_the_first_floor() {
     for (frame, most) in [(frames::ball(), 0), (frames::cloud(), 10)] {

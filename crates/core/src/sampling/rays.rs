@@ -103,7 +103,7 @@ impl Rays {
         }
     }
 
-    /// How many of eight rays differ, in a tile of so many columns.
+    /// The number of different rays among eight, in a tile with this number of columns.
     pub(super) fn lanes(&self, width: u32) -> usize {
         match self.strata {
             Some(_) => LANES,

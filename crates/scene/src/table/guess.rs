@@ -10,7 +10,7 @@ use crate::text::LocatedFault;
 /// A guess about the numbers in the column of elements.
 #[derive(Clone, Debug)]
 pub(crate) struct Guess {
-    /// How the numbers are read.
+    /// The meaning of the numbers.
     pub(crate) element: ElementOf,
     /// The message and its place.
     pub(crate) told: LocatedFault,

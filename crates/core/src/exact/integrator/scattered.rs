@@ -18,12 +18,12 @@ fn samples(side: u32) -> u64 {
     2 * u64::from(side) * u64::from(side)
 }
 
-/// What tells whether random samples may meet a tolerance.
+/// The conditions under which samples are scattered over the pixels of a tile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scattering {
-    /// How far light may differ, in any channel.
+    /// The largest possible difference of light, in any channel.
     range: f64,
-    /// The units that a sample takes.
+    /// The units of a sample.
     of_sample: u64,
 }
 

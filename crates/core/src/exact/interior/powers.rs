@@ -57,7 +57,7 @@ impl Power {
     fn share<S: Simd>(&self, rule: Rule, range: &CosineRange<S>) -> f64x8<S> {
         const OF_FOURTH: f64 = 0.0334;
         const OF_SIXTH: f64 = 0.025;
-        /// Where the cosine comes so near to 0, or falls below, others tell what may be missed.
+        /// Cosines that come this near to 0, or below, are left to other estimates.
         const NEAREST: f64 = 0.95;
         let least = range.highest * 0.0 + f64::MIN_POSITIVE;
         let middle = (range.highest + range.lowest).max(least);

@@ -104,7 +104,7 @@ fn every_format_is_cut() {
     );
 }
 
-/// Of every format that has frames, a file of one: it is read as often as it is wanted.
+/// A file with a single frame, in every format that has frames, can be read any number of times.
 #[test]
 fn one_frame_is_a_step() {
     for (ending, _) in ENDINGS {

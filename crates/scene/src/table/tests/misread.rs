@@ -205,7 +205,7 @@ fn coordinates_that_leave_their_columns_are_refused() {
     }
 }
 
-/// Of lines that are atoms, but not as the format has them, none is passed over.
+/// Lines that are atoms, but not in the form of the format, are never skipped.
 #[test]
 fn irregular_atoms_are_atoms() {
     let atom = "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 10.00           N\n";
