@@ -146,7 +146,7 @@ fn loops_are_neither_resumed_nor_shared_by_tasks() {
             (
                 "render roll.ron -o turn.##",
                 format!(
-                    "turn.##.{ending}: all frames are one file, whose name has no place for their number"
+                    "turn.##.{ending}: all frames go into one file, so its name cannot contain the frame number"
                 ),
             ),
         ] {

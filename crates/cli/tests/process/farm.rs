@@ -307,7 +307,10 @@ fn what_cannot_be_rendered_is_no_job() {
                 "roll.ron -o a.png --frames 1-9",
                 "need the frame number in the file name",
             ),
-            ("ball.ron -o #.png --float", "--float is for EXR files"),
+            (
+                "ball.ron -o #.png --float",
+                "--float is for EXR and TIFF files",
+            ),
             ("ball.ron -o #.png --tolerance 0", "tolerance"),
             ("ball.ron -o #.png --chunk 0", "--chunk"),
             (

@@ -20,7 +20,10 @@ use crate::terminal::interrupt;
 pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, Failure> {
     let path = &arguments.output;
     let format = Format::of_file(path).ok_or_else(|| {
-        Failure::unusable(path, "expected a file name that ends in .png, .exr or .npy")
+        Failure::unusable(
+            path,
+            "expected a file name that ends in .png, .exr, .npy or .tif",
+        )
     })?;
     Inputs::parts(&arguments.parts).refuse([path.clone()])?;
     interrupt::listen(console);
