@@ -153,7 +153,7 @@ def page(measured: str, programs: list[Program], results: list[tuple], options) 
         text += table(["method", *head], [[name, *cells(measured)] for name, measured in result["rows"].items()])
         if differences:
             shares = ", ".join(f"{power(rms)} ({power(largest)})" for rms, largest in differences)
-            text += f"\nPOV-Ray with {', '.join(map(str, GRIDS))} samples a side, against the reference: {shares}.\n"
+            text += f"\nPOV-Ray with {', '.join(map(str, GRIDS))} samples per side of a pixel, against the reference: {shares}.\n"
     return text
 
 
