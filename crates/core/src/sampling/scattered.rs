@@ -61,7 +61,7 @@ impl Pairs {
 }
 
 impl Supersampling<'_> {
-    /// Takes two random samples in each of `side` × `side` strata of a pixel, a multiple of 2, of which something is seen.
+    /// Takes two random samples in each of `side` × `side` strata of a pixel, a multiple of 2.
     ///
     /// The places depend on the pixel's column and row alone.
     pub(crate) fn scattered(&self, key: PixelKey, side: u32) -> Pairs {
@@ -106,6 +106,8 @@ impl Supersampling<'_> {
         } = &mut Scratch::default();
         self.gather(simd, rays, tile, balls);
         let Some(mut sampler) = self.sampler(rays, tile, balls, (cells, geometry)) else {
+            let count = 2 * u64::from(side) * u64::from(side);
+            pairs.value = self.background() * count as f64;
             return;
         };
         let Sampler {
@@ -144,6 +146,56 @@ impl Supersampling<'_> {
                     }
                 }
                 pairs.add::<S, CHANNELS>(&light, sight.covered);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroU32;
+
+    use glam::DVec3;
+
+    use super::*;
+    use crate::model::camera::{Camera, Lens};
+    use crate::model::material::Material;
+    use crate::model::sphere::Sphere;
+    use crate::model::view::View;
+    use crate::model::world::World;
+    use crate::numeric::angle::Angle;
+    use crate::search::grid::RayPoints;
+    use crate::search::view_index::ViewIndex;
+    use crate::search::visibility::Visibility;
+
+    /// Pixels of every kind: far from a ball, near it, on its edge, and inside.
+    #[test]
+    fn means_are_those_of_many_regular_samples() {
+        let mut world = World::new();
+        world.background = Color::new(0.1, 0.2, 0.5);
+        world.ambient = Color::splat(0.7);
+        let white = world.add_material(Material::default());
+        let ball = Sphere::new(DVec3::new(0.0, 0.0, 10.0), 2.0).unwrap();
+        world.add_sphere(ball, white);
+        let lens = Lens::from_field_of_view(Angle::from_degrees(40.0)).unwrap();
+        let view = View::new(Camera::default(), lens, 24, 24);
+        let visibility = Visibility::new(&world);
+        let index = ViewIndex::new(&visibility, &view, RayPoints::All);
+        let side = NonZeroU32::new(128).unwrap();
+        for alpha in [false, true] {
+            let samples = Supersampling::new(&world, &view, &index, side, alpha);
+            for (col, row) in (0..24).flat_map(|row| (0..24).map(move |col| (col, row))) {
+                let key = PixelKey { col, row, frame: 1 };
+                let (pairs, regular) = (samples.scattered(key, 32), samples.pixel(key));
+                let off = (pairs.value - regular.value).abs().max_element();
+                let off = off.max((pairs.alpha - regular.alpha).abs());
+                let most = pairs.squares.max_element().max(pairs.squares_of_alpha);
+                // Five deviations of the mean, and what regular samples are off by at an edge.
+                let claimed = 5.0 * (0.5 * most).sqrt() / pairs.count as f64;
+                assert!(off <= claimed + 4e-3, "({col}, {row}): {off:e} {claimed:e}");
+                if regular.error == 0.0 {
+                    assert!(off <= 1e-14, "({col}, {row}): {off:e}");
+                }
             }
         }
     }
