@@ -1,17 +1,14 @@
 //! The mean over one pixel by random samples in strata.
 
 use fearless_simd::{Simd, dispatch};
-use glam::DVec3;
 
-use super::light::{Light, splat};
+use super::light::splat;
 use super::rays::{Place, Rays};
-use super::supersampling::{ROWS, Sampler, Scratch, Supersampling};
-use super::trace::RayRow;
-use crate::model::camera::Projection;
+use super::sums::Sample;
+use super::supersampling::{ROWS, Scratch, Supersampling};
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
-use crate::numeric::lanes::{LANES, mask64x8};
-use crate::numeric::vectors::Vectors;
+use crate::numeric::lanes::LANES;
 use crate::picture::image::Channels;
 use crate::picture::tile::Tile;
 
@@ -32,8 +29,9 @@ pub(crate) struct Pairs {
 impl Pairs {
     /// Adds eight samples, the first of four pairs and then the others.
     #[inline(always)]
-    fn add<S: Simd, const CHANNELS: usize>(&mut self, light: &Light<S, CHANNELS>, covered: u64) {
+    fn add<S: Simd, const CHANNELS: usize>(&mut self, samples: &Sample<S, CHANNELS>) {
         const HALF: usize = LANES / 2;
+        let Sample { light, covered } = samples;
         for channel in 0..CHANNELS {
             let light: [f64; LANES] = light[channel].into();
             for pair in 0..HALF {
@@ -42,7 +40,7 @@ impl Pairs {
                 self.squares[channel] += (one - other) * (one - other);
             }
         }
-        let apart = (covered ^ covered >> HALF) & 0xf;
+        let apart = (covered ^ (covered >> HALF)) & 0xf;
         self.alpha += f64::from(covered.count_ones());
         self.squares_of_alpha += f64::from(apart.count_ones());
     }
@@ -110,15 +108,11 @@ impl Supersampling<'_> {
             pairs.value = self.background() * count as f64;
             return;
         };
-        let Sampler {
-            tracer,
-            groups,
-            looks,
-            shadows,
-            ..
-        } = &mut sampler;
-        let background: Light<S, CHANNELS> = splat(simd, self.background());
-        let mut rows = [RayRow::new(simd, Vectors::splat(simd, DVec3::ZERO)); ROWS];
+        let nothing = Sample {
+            light: splat(simd, self.background()),
+            covered: 0,
+        };
+        let mut samples: [Sample<S, CHANNELS>; ROWS] = [nothing; ROWS];
         for cell_row in 0..side / 2 {
             for cell_col in 0..side / 2 {
                 let place = Place {
@@ -128,24 +122,8 @@ impl Supersampling<'_> {
                     cell_row,
                     is_scattered: true,
                 };
-                let sight = if rays.projection() == Projection::Parallel {
-                    tracer.look_along(simd, place, groups)
-                } else {
-                    rows[0] = RayRow::new(simd, rays.scattered_directions(simd, place));
-                    tracer.search(simd, &mut rows);
-                    tracer.look(simd, place, &rows[0], groups)
-                };
-                let mut light = background;
-                if sight.covered != 0 {
-                    looks.see(&self.shading, groups);
-                    let seen = (&sight, &*groups, &mut *looks);
-                    let seen: Light<S, CHANNELS> = self.shading.light(simd, seen, place, shadows);
-                    let covered = mask64x8::from_bitmask(simd, sight.covered);
-                    for channel in 0..CHANNELS {
-                        light[channel] = covered.select(seen[channel], light[channel]);
-                    }
-                }
-                pairs.add::<S, CHANNELS>(&light, sight.covered);
+                self.sample_cell(simd, place, &nothing, &mut sampler, &mut samples);
+                pairs.add(&samples[0]);
             }
         }
     }

@@ -258,13 +258,16 @@ impl<'scene> Supersampling<'scene> {
     }
 
     /// Finds the balls that rays of a tile may meet.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn gather<S: Simd>(&self, simd: S, rays: &Rays, tile: Tile, balls: &mut TileBalls) {
         let mut cells = rays.cells_on_unit();
         if rays.projection() == Projection::Parallel {
             cells *= libm::scalbn(1.0, self.index.length_exponent());
         }
-        balls.gather(simd, cells, &rays.bundle(tile), self.index.balls(tile));
+        simd.vectorize(
+            #[inline(always)]
+            || balls.gather(simd, cells, &rays.bundle(tile), self.index.balls(tile)),
+        );
     }
 
     /// Prepares the search among the balls of a tile, if there is any.
@@ -300,9 +303,26 @@ impl<'scene> Supersampling<'scene> {
         })
     }
 
-    /// Takes a sample of each pixel of a tile, `nothing` where no sphere is seen.
+    /// Takes a sample of each pixel of a tile, or eight scattered samples of one pixel; `nothing` where no sphere is seen.
+    ///
+    /// Compiled once, and not wherever samples are taken.
+    #[inline(never)]
+    pub(super) fn sample_cell<'tile, S: Simd, const CHANNELS: usize>(
+        &'tile self,
+        simd: S,
+        place: Place,
+        nothing: &Sample<S, CHANNELS>,
+        sampler: &mut Sampler<'tile>,
+        samples: &mut [Sample<S, CHANNELS>; ROWS],
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.sample_lanes_of_cell(simd, place, nothing, sampler, samples),
+        );
+    }
+
     #[inline(always)]
-    fn sample_cell<'tile, S: Simd, const CHANNELS: usize>(
+    fn sample_lanes_of_cell<'tile, S: Simd, const CHANNELS: usize>(
         &'tile self,
         simd: S,
         mut place: Place,
@@ -320,11 +340,17 @@ impl<'scene> Supersampling<'scene> {
         let height = tracer.tile.height as usize;
         let dark = RayRow::new(simd, Vectors::splat(simd, DVec3::ZERO));
         let mut rows = [dark; ROWS];
-        let across = self.rays.across(simd, place, tracer.tile.width);
-        let is_parallel = self.rays.projection() == Projection::Parallel;
+        let rays = tracer.rays;
+        let across = rays.across(simd, place, tracer.tile.width);
+        let is_parallel = rays.projection() == Projection::Parallel;
         if !is_parallel {
             for row in &mut rows[..height] {
-                *row = RayRow::new(simd, self.rays.directions(across, place));
+                let directions = if place.is_scattered {
+                    rays.scattered_directions(simd, place)
+                } else {
+                    rays.directions(across, place)
+                };
+                *row = RayRow::new(simd, directions);
                 place.row += 1;
             }
             tracer.search(simd, &mut rows);
