@@ -154,14 +154,16 @@ impl Budget {
         let most = if grains > MANY_GRAINS {
             0.0
         } else {
-            let share = (FEW_GRAINS / grains).min(1.0).powi(4);
+            // Products, which are the same on every machine: `powi` need not be.
+            let share = (FEW_GRAINS / grains).min(1.0);
+            let share = share * share;
             let need = need(grains, tolerance);
             let needed = if need <= MOST_NEED * most {
                 MOST_NEEDS * need
             } else {
                 HOPELESS * most
             };
-            (most * share).max(needed.min(most))
+            (most * (share * share)).max(needed.min(most))
         };
         Self {
             spent: 0,

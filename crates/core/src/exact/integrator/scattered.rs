@@ -59,8 +59,9 @@ impl Exact<'_> {
     /// samples.
     ///
     /// # Accuracy
-    /// An estimate that holds with a probability: see [`error_of_mean`]. Samples see exactly, and nothing that they may
-    /// overlook is brighter or darker than what the tile may show.
+    /// An estimate that holds with a probability: see [`error_of_mean`]. There are five looks at most, each of which may
+    /// claim too little. Samples see exactly, and nothing that they may overlook is brighter or darker than what the tile
+    /// may show.
     pub(super) fn scattered(
         &self,
         key: PixelKey,
