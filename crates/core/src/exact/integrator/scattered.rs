@@ -4,6 +4,7 @@ use super::Exact;
 use super::range::{MOST_OF_SAMPLES, OF_SPHERE};
 use crate::exact::crowd::CrowdWork;
 use crate::model::color::Color;
+use crate::model::light::Light;
 use crate::model::roughness::PixelKey;
 use crate::numeric::bernstein::{error_of_mean, least_error};
 use crate::picture::pixel::{Evidence, Pixel, Status};
@@ -12,6 +13,14 @@ use crate::sampling::Pairs;
 /// Strata on a side of a pixel at the first look, and at most.
 const FIRST: u32 = 32;
 const MOST: u32 = 512;
+
+/// The units that the most strata of a pixel may cost, about 60 ms: enough for them over a sphere under a lamp, or over
+/// two under a sun. The looks before them cost a third of it.
+const MOST_UNITS: u64 = 13_000_000;
+
+/// The units of a light, whose ray may meet anything.
+const OF_SUN: u64 = 4;
+const OF_LAMP: u64 = 16;
 
 /// The number of samples in so many strata on a side.
 fn samples(side: u32) -> u64 {
@@ -25,6 +34,28 @@ pub(super) struct Scattering {
     range: f64,
     /// The units of a sample.
     of_sample: u64,
+    /// The most strata on a side.
+    most: u32,
+}
+
+/// The most strata on a side that samples of so many units allow.
+fn most_strata(of_sample: u64) -> u32 {
+    let mut most = MOST;
+    while most > FIRST && samples(most) * of_sample > MOST_UNITS {
+        most /= 2;
+    }
+    most
+}
+
+/// The error that may be expected of the most strata, from that of so many on a side.
+///
+/// An estimate, which only decides how much is tried: the variance in strata of the side s is between that of edges,
+/// which falls with s, and that of smooth light, which falls with s².
+fn expected(error: f64, side: u32, of: Scattering) -> f64 {
+    const POWER: f64 = -0.9;
+    let [now, most] = [side, of.most].map(|side| samples(side) as f64);
+    let of_range = |count| least_error(of.range, count);
+    of_range(most) + (error - of_range(now)) * libm::pow(most / now, POWER)
 }
 
 impl Exact<'_> {
@@ -46,12 +77,24 @@ impl Exact<'_> {
             .groups
             .iter()
             .any(|group| group.allowance.is_of_moment());
-        let may_meet = least_error(range, samples(MOST) as f64) < self.tolerance;
+        let of_light = |light: &Light| {
+            let ray = match light {
+                Light::Directional(_) => OF_SUN,
+                Light::Point(_) => OF_LAMP,
+            };
+            ray + most_occluders as u64
+        };
+        let lights = self.index.visibility.lights();
+        let of_sample =
+            OF_SPHERE * candidates.len() as u64 + lights.iter().map(of_light).sum::<u64>();
+        let most = most_strata(of_sample);
+        let may_meet = least_error(range, samples(most) as f64) < self.tolerance;
         let is_few = candidates.len() <= MOST_OF_SAMPLES
             && !candidates.iter().any(|&sphere| self.is_far(sphere));
         (may_meet && !is_of_moment && is_few).then_some(Scattering {
             range,
-            of_sample: OF_SPHERE * candidates.len() as u64 + most_occluders as u64,
+            of_sample,
+            most,
         })
     }
 
@@ -83,23 +126,12 @@ impl Exact<'_> {
                     status: Status::Met,
                 });
             }
-            if side == MOST || self.expected(error, side, of.range) > self.tolerance {
+            if side >= of.most || expected(error, side, of) > self.tolerance {
                 return None;
             }
             side *= 2;
         }
         None
-    }
-
-    /// The error that may be expected of the most strata, from that of so many on a side.
-    ///
-    /// An estimate, which only decides how much is tried: the variance in strata of the side s is between that of edges,
-    /// which falls with s, and that of smooth light, which falls with s².
-    fn expected(&self, error: f64, side: u32, range: f64) -> f64 {
-        const POWER: f64 = -0.9;
-        let [now, most] = [side, MOST].map(|side| samples(side) as f64);
-        let of_range = |count| least_error(range, count);
-        of_range(most) + (error - of_range(now)) * libm::pow(most / now, POWER)
     }
 
     /// The error of the means of pairs of samples.
@@ -111,5 +143,25 @@ impl Exact<'_> {
         } else {
             of_light
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strata_cost_no_more_than_a_pixel_may() {
+        for of_sample in 1..2000 {
+            let most = most_strata(of_sample);
+            assert!(samples(most) * of_sample <= MOST_UNITS || most == FIRST);
+            let is_enough = most == MOST || samples(2 * most) * of_sample > MOST_UNITS;
+            assert!(is_enough && most.is_multiple_of(2), "{of_sample}: {most}");
+        }
+        // A sphere under a lamp, and two under a sun.
+        assert_eq!(most_strata(OF_SPHERE + OF_LAMP), MOST);
+        assert_eq!(most_strata(2 * OF_SPHERE + OF_SUN), MOST);
+        // Three spheres under twenty lamps.
+        assert!(most_strata(3 * OF_SPHERE + 20 * OF_LAMP) < MOST);
     }
 }
