@@ -12,9 +12,11 @@ use marbles_tests::numbers::Numbers;
 /// near the surface.
 const FAR: f64 = 100.0;
 
-/// Columns and rows of pictures with bumps, and of pictures with an open shutter.
-const SIDE_OF_BUMPS: u32 = 10;
+/// Columns and rows of pictures with bumps, of pictures with an open shutter, and of those with both, whose pixels take
+/// minutes to judge: more scenes find more than more pixels of a scene.
+const SIDE_OF_BUMPS: u32 = 6;
 const SIDE_OVER_TIME: u32 = 5;
+const SIDE_OF_BUMPS_OVER_TIME: u32 = 3;
 
 /// A random scene for a row.
 pub(super) fn together(numbers: &mut Numbers, index: u64) -> Draft {
@@ -80,12 +82,12 @@ impl Sight {
         let wall = row.has(Feature::Eye, "near").then_some([height, radius]);
         let near = wall.map_or(1.0, |_| 10.0 * height / FAR);
         let ordinary = 50.0 * numbers.between(0.5, 2.0);
-        let side = if row.has(Feature::Shutter, "open") {
-            SIDE_OVER_TIME
-        } else if row.has(Feature::Surface, "smooth") {
-            SIDE
-        } else {
-            SIDE_OF_BUMPS
+        let is_smooth = row.has(Feature::Surface, "smooth");
+        let side = match (row.has(Feature::Shutter, "open"), is_smooth) {
+            (true, true) => SIDE_OVER_TIME,
+            (true, false) => SIDE_OF_BUMPS_OVER_TIME,
+            (false, true) => SIDE,
+            (false, false) => SIDE_OF_BUMPS,
         };
         let half_angle = numbers.between(60.0, 87.5_f64).to_radians();
         let wide = 0.5 * f64::from(side) / libm::tan(half_angle);
