@@ -1,8 +1,9 @@
 //! The scene files of marbles: format, checks, messages, animation.
 //!
-//! [`Scene::load`] reads a file in RON, and the tables that it names. A [`Scene`] has a [`World`](marbles_core::World), the same in
-//! every frame, and a [`View`](marbles_core::View) for each frame. If a file has faults, a [`SceneError`] tells the line and the
-//! column of each, what was expected there and what was found.
+//! [`Scene::load`] reads a file in RON, and the tables that it names. A [`Scene`] has a [`World`](marbles_core::World) and a
+//! [`View`](marbles_core::View) for each frame. The world is the same in every frame, unless tables change over time:
+//! [`Scene::world_at`] always has all spheres of a frame. If a file has faults, a [`SceneError`] tells the line and the column
+//! of each, what was expected there and what was found.
 //!
 //! # Example
 //! ```
@@ -15,7 +16,8 @@
 //!     spheres: [(center: (0, 0, 5), radius: 1)])";
 //! let scene = Scene::parse(text, Path::new("ball.ron"))?;
 //! let view = scene.view(1)?;
-//! let image = Renderer::new(scene.world()).render(scene.exposure(&view), &Settings::default());
+//! let world = scene.world_at(1)?;
+//! let image = Renderer::new(&world).render(scene.exposure(&view), &Settings::default());
 //! assert_eq!(image.rgba(16, 16)[0], 0.5);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -19,6 +19,7 @@ mod double;
 mod exact;
 pub(crate) mod fast;
 pub(crate) mod floors;
+pub(crate) mod nearest;
 pub(crate) mod outcome;
 mod scaled;
 

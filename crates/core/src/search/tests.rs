@@ -2,7 +2,6 @@
 
 mod tiles;
 
-use std::cmp::Ordering;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
@@ -12,7 +11,7 @@ use super::grid::RayPoints;
 use super::hierarchy::Hierarchy;
 use super::view_index::ViewIndex;
 use super::visibility::Visibility;
-use crate::hit::outcome::Hit;
+use crate::hit::nearest::nearest;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::light::Light;
@@ -81,21 +80,6 @@ fn view(random: &mut Random) -> View {
         height: 27,
         frame: 1,
     }
-}
-
-/// The answer of every sphere, in their order.
-pub(crate) fn nearest_of_all(spheres: &[Sphere], ray: &Ray) -> Option<(usize, Hit)> {
-    let mut nearest: Option<(usize, Hit)> = None;
-    for (index, sphere) in spheres.iter().enumerate() {
-        let Some(hit) = sphere.hit(ray) else { continue };
-        let is_nearer = nearest.as_ref().is_none_or(|(other, other_hit)| {
-            sphere.compare(&hit, &spheres[*other], other_hit, ray) == Ordering::Less
-        });
-        if is_nearer {
-            nearest = Some((index, hit));
-        }
-    }
-    nearest
 }
 
 /// Divisions of a pixel so fine that the cells along a tile's edge lie on it, nearly.
@@ -184,7 +168,7 @@ fn agrees_with_asking(world: &World, visibility: &Visibility<'_>, random: &mut R
             for cell in cells_and_edges(tile) {
                 let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
                 let found = few.nearest(tile, &ray);
-                let expected = nearest_of_all(spheres, &ray);
+                let expected = nearest(spheres, &ray);
                 assert_eq!(found, crowd.nearest(tile, &ray));
                 // Distances agree to the last place; what is known from the viewpoint is rounded
                 // another way.
@@ -331,7 +315,7 @@ fn far_from_the_origin() {
         for (col, row) in tile.pixels() {
             let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
             let found = index.nearest(tile, &ray);
-            let expected = nearest_of_all(world.spheres(), &ray);
+            let expected = nearest(world.spheres(), &ray);
             assert_eq!(
                 found.map(|(index, _)| index),
                 expected.map(|(index, _)| index)

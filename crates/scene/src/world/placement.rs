@@ -27,6 +27,11 @@ impl Placement {
         self.is_right_handed.unwrap_or(by_default)
     }
 
+    /// True where z points up, and nothing but the format says that the axes are left-handed.
+    pub(super) fn may_be_mirrored(&self, by_default: bool) -> bool {
+        self.up == Up::Z && self.is_right_handed.is_none() && !by_default
+    }
+
     /// Puts spheres, whose axes are right-handed or not, to their place; returns whether they are still finite and have
     /// radii.
     pub(super) fn place(&self, spheres: &mut [Sphere], is_right_handed: bool) -> bool {

@@ -164,6 +164,27 @@ fn z_points_up_where_the_scene_says_so() {
     }
 }
 
+/// A left-handed format whose z points up is mirrored without a word of the scene only with a warning.
+#[test]
+fn axes_that_are_left_open_are_a_warning() {
+    for (ending, up, is_warned) in [
+        ("csv", "up: Z", true),
+        ("npy", "up: Z", true),
+        ("csv", "up: Z, right_handed: false", false),
+        ("csv", "up: Z, right_handed: true", false),
+        ("csv", "up: Y", false),
+        ("xyz", "up: Z", false),
+        ("pdb", "up: Z", false),
+    ] {
+        let (bytes, _) = table(ending);
+        let scene = load_as_it_is(&format!("a.{ending}"), &bytes, &format!("radius: 1, {up}"));
+        let scene = scene.unwrap();
+        let warnings = scene.warnings().iter();
+        let count = warnings.filter(|it| it.contains("mirror image")).count();
+        assert_eq!(count, usize::from(is_warned), "{ending}, {up}");
+    }
+}
+
 /// All steps of a cloud have the same hands, and its middle stays where it is.
 #[test]
 fn steps_are_right_handed() {

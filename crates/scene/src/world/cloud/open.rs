@@ -54,6 +54,10 @@ pub(crate) struct Step {
     pub(crate) has_times: bool,
 }
 
+/// The warning about a table with z up whose axes the scene leaves open, and whose format is left-handed.
+const MIRRORED: &str = "with `up: Z`, the axes are usually right-handed, and without `right_handed: true` the picture is then \
+                        a mirror image; write `right_handed: true`, or `false` if they are left-handed";
+
 /// The warning about a file whose first frame alone is shown.
 pub(crate) const FIRST_OF_SEVERAL: &str =
     "the first frame of several is shown (`frames: All` shows them one after another)";
@@ -264,6 +268,10 @@ impl OpenCloud {
     /// format says unless the scene does.
     fn place(&self, spheres: &mut [Sphere], by_format: bool) -> Result<bool, CloudError> {
         let placement = &self.cloud.placement;
+        if placement.may_be_mirrored(by_format) {
+            let name = harmless(&self.cloud.name);
+            self.observed.warn([format!("{name}: {MIRRORED}")]);
+        }
         let is_right_handed = placement.is_right_handed(by_format);
         if placement.place(spheres, is_right_handed) {
             return Ok(is_right_handed);

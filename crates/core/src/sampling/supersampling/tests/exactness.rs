@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 
 use super::super::*;
 use super::shading::shade;
+use crate::hit::nearest::nearest;
 use crate::model::camera::{Camera, Lens};
 use crate::model::light::Light;
 use crate::model::material::Material;
@@ -12,7 +13,7 @@ use crate::model::sphere::Sphere;
 use crate::numeric::angle::Angle;
 use crate::numeric::lanes::tests::levels;
 use crate::search::grid::RayPoints;
-use crate::search::tests::{Random, nearest_of_all};
+use crate::search::tests::Random;
 use crate::search::view_index::ViewIndex;
 use crate::search::visibility::Visibility;
 
@@ -89,7 +90,7 @@ fn shows_the_nearest(balls: &[(DVec3, f64)], view: &View) -> usize {
     for (index, pixel) in found.iter().enumerate() {
         let (col, row) = (index as u32 % view.width, index as u32 / view.width);
         let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
-        let expected = nearest_of_all(world.spheres(), &ray).map(|(index, _)| index);
+        let expected = nearest(world.spheres(), &ray).map(|(index, _)| index);
         let value = expected.map_or(Color::ZERO, |index| world.material(index).albedo);
         assert_eq!(pixel.value, value, "pixel ({col}, {row}), {expected:?}");
         covered += usize::from(expected.is_some());
@@ -307,7 +308,7 @@ fn light_is_that_of_single_rays() {
             let (col, row) = (index as u32 % view.width, index as u32 / view.width);
             let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
             let key = PixelKey { col, row, frame: 1 };
-            let expected = match nearest_of_all(world.spheres(), &ray) {
+            let expected = match nearest(world.spheres(), &ray) {
                 Some((sphere, hit)) => shade(&world, &visibility, &ray, sphere, &hit, key),
                 None => world.background,
             };
