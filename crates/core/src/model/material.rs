@@ -143,9 +143,10 @@ pub struct Roughness {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grain {
-    /// The surface: smooth noise with cells of this size, in scene units, greater than 0. It tilts normals equally in
-    /// all directions: the part of the vector of three numbers that is perpendicular to the normal is multiplied by the
-    /// amplitude and added to the normal.
+    /// The surface: smooth noise with cells of this size, in scene units, greater than 0. Bumps repeat about every three
+    /// cells; a tenth of the radius gives a clearly bumpy ball. The noise tilts normals equally in all directions: the
+    /// part of the vector of three numbers that is perpendicular to the normal is multiplied by the amplitude and added to
+    /// the normal.
     Surface(f64),
     /// The picture: an independent draw for each pixel and frame. Each component of the normal is multiplied by a
     /// number from 1 − amplitude to 1 + amplitude.
