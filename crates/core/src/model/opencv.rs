@@ -92,6 +92,9 @@ fn mirrored(matrix: DMat3) -> DMat3 {
 /// The matrix of a pinhole camera with square pixels: a point is seen at `focal_length · (x, y) / z +
 /// principal_point`.
 ///
+/// These coordinates count from the center of the first pixel, as OpenCV does. [`View::project`] counts from the corner of the
+/// picture, so its coordinates are larger by half a pixel.
+///
 /// # Example
 /// ```
 /// use marbles_core::glam::DVec2;

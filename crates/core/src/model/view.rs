@@ -127,6 +127,9 @@ impl View {
 
     /// The pixel coordinates (column, row) at which a world point is seen; pixel (0, 0) spans
     /// from 0 to 1. `None` when the point is not in front of the viewpoint.
+    ///
+    /// These coordinates count from the corner of the picture. [`Intrinsics`](crate::Intrinsics) counts from the center of
+    /// the first pixel, as OpenCV does, so its coordinates are smaller by half a pixel.
     pub fn project(&self, point: DVec3) -> Option<DVec2> {
         let from_eye = point - self.camera.position;
         let in_camera = self.camera.world_from_camera.transpose() * from_eye;
