@@ -10,7 +10,7 @@ use super::values::tolerance_above_zero;
 const EXAMPLES: &str = "\
 Examples:
   marbles preview ball.ron                            show the first frame
-  marbles preview ball.ron --frame 30 --watch         show frame 30 whenever ball.ron is saved
+  marbles preview turn.ron --frame 30 --watch         show frame 30 whenever turn.ron is saved
   marbles preview photo.jpg                           show a picture, in any format that `marbles compare` reads
 
 The picture fills the terminal, with two pixels, one above the other, for each character. The

@@ -16,18 +16,20 @@ use crate::terminal::progress::ProgressForm;
 
 const EXAMPLES: &str = "\
 Examples:
+  marbles new ball.ron                                write a scene for these examples
+  marbles new turn.ron --turntable                    write a turntable for these examples
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file per frame
   marbles render a.ron b.ron -o out/{scene}.png       several scenes
-  marbles render ball.ron --set camera.azimuth=30     another value in the scene
+  marbles render turn.ron --set camera.azimuth=30     another value in the scene
   marbles render ball.ron -o a.npy --error-channel    doubles for NumPy, their errors in a_error.npy
-  marbles render ball.ron -o b%03d.png --frames 1-9x2,20
+  marbles render turn.ron -o t%03d.png --frames 1-9x2,20
   marbles render turn.ron -o turn.webp                a loop that browsers play; also turn.gif and turn.apng
   marbles render ball.ron -o ball.tif                 16-bit TIFF, in proportion to light; floats with --float
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 samples per pixel
   marbles render ball.ron -o ball.exr --channels depth,normal,id
-  marbles render ball.ron -o small.png --frames 7 --size 150x150
+  marbles render turn.ron -o small.png --frames 7 --size 150x150
   marbles render ball.ron -o a.exr --per-light        a.light-1.exr, …, a.ambient.exr, one per light
   marbles render ball.ron -o a.exr --per-light=layers  the same as layers light-1, …, ambient of a.exr
   marbles render ball.ron -o ball.exr --sidecar       also ball.json with camera, lights and error

@@ -7,7 +7,7 @@ use marbles_scene::Setting;
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct SceneOptions {
     /// Replace or add a value of the scene: --set 'lights[0].toward=(1, 1, -1)',
-    /// --set materials.candy.exponent=2; repeat the option for several values
+    /// --set materials.red.exponent=2; repeat the option for several values
     #[arg(long, value_name = "PATH=VALUE")]
     pub(crate) set: Vec<Setting>,
 
