@@ -55,7 +55,7 @@ def codes(light: np.ndarray, kind: str) -> np.ndarray:
 
 
 def check_codes(found: np.ndarray, light: np.ndarray, kind: str, reader: str) -> None:
-    """Fails where a code is not the nearest one; grey may stand for three colors."""
+    """Fails where a code is not the nearest one; gray may stand for three colors."""
     assert found.dtype == (np.uint8 if kind == "8" else np.uint16), (reader, found.dtype)
     exact = codes(light, kind)
     if found.ndim == 2:
@@ -95,7 +95,7 @@ def check_png(folder: Path, name: str, light: np.ndarray) -> int:
         if kind == "8" or found.dtype == np.uint16:
             check_codes(found, light, kind, f"Pillow, {path.name}")
         else:
-            # Of 16 bit Pillow keeps the upper eight, but for plain grey.
+            # Of 16 bit Pillow keeps the upper eight, but for plain gray.
             assert np.array_equal(found, full >> 8), path
         count += 4
     return count

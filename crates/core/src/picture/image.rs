@@ -229,7 +229,7 @@ impl Image {
         self.alpha
     }
 
-    /// Red, green, blue and alpha of a pixel; grey repeats, and alpha is 1 without its channel.
+    /// Red, green, blue and alpha of a pixel; gray repeats, and alpha is 1 without its channel.
     ///
     /// # Panics
     /// Outside the picture, as for the other accessors of a pixel.

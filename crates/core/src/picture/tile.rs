@@ -55,7 +55,7 @@ pub(crate) struct TileLight {
 /// The light of a row of a tile's pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowLight {
-    /// Red, green, blue; grey has only the first.
+    /// Red, green, blue; gray has only the first.
     pub(crate) channels: [[f64; SIDE]; 3],
     /// Covered fractions.
     pub(crate) alpha: [f64; SIDE],

@@ -9,7 +9,7 @@ use crate::text::{Names, Read, Slice, note_failure, read_simple, read_tuple};
 
 const ANY_FORM: &str = r##"a color: a number, `(red, green, blue)` or "#rrggbb""##;
 
-/// A color: a number (grey), `(red, green, blue)`, both linear, or `"#rrggbb"`, in sRGB.
+/// A color: a number (gray), `(red, green, blue)`, both linear, or `"#rrggbb"`, in sRGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Color(pub(crate) DVec3);
 

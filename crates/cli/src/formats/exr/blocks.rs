@@ -144,7 +144,7 @@ impl Blocks {
         let is_grey = image.channels() == Channels::Grey;
         for (samples, row) in samples.chunks_exact_mut(self.row_bytes()).zip(rows) {
             let mut end = 0;
-            // Where the first color of a grey picture is, and how many numbers of it were too large.
+            // Where the first color of a gray picture is, and how many numbers of it were too large.
             let mut grey = None;
             for channel in &self.channels {
                 let start = end + col as usize * channel.bytes;

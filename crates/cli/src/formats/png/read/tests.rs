@@ -117,7 +117,7 @@ fn the_curve_is_what_the_file_says() {
 
 /// An interlaced PNG whose zlib stream, without compression, holds these bytes.
 fn stored(width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
-    // Of 8 bit and grey.
+    // Of 8 bit and gray.
     let mut info = png::Info::with_size(width, height);
     info.interlaced = true;
     let mut file = Vec::new();
