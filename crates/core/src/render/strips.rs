@@ -60,7 +60,7 @@ const PART_COLUMNS: u32 = 1024;
 /// # world.background = DVec3::splat(0.5);
 /// # let view = View::new(Camera::default(), Lens::parallel(8.0, DVec2::ZERO), 20, 30);
 /// # let renderer = Renderer::new(&world);
-/// // 20 × 30 pixels of a grey background.
+/// // 20 × 30 pixels of a gray background.
 /// let rendering = renderer.begin(&view, Window::whole(&view), &Settings::default(), 8);
 /// let sum = Sum::default();
 /// let go_on = |_| ControlFlow::Continue(());

@@ -1,4 +1,4 @@
-//! The same picture whatever it is rendered over, grey or colored.
+//! The same picture whatever it is rendered over, gray or colored.
 
 use std::num::NonZeroU32;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -84,8 +84,8 @@ fn nothing_of_a_spent_picture_shows() {
         height: 9,
         ..view
     };
-    let grey = World::new();
-    let orders = [(&world, settings), (&grey, settings), (&world, tolerance)];
+    let gray = World::new();
+    let orders = [(&world, settings), (&gray, settings), (&world, tolerance)];
     let mut spent = None;
     for (first, second) in [(0, 1), (1, 2), (2, 0), (0, 2), (2, 1), (1, 0)] {
         for view in [view, small] {
@@ -106,7 +106,7 @@ fn nothing_of_a_spent_picture_shows() {
 fn grey_and_colored_rendering_agree_to_the_bit() {
     let (mut world, view, settings) = ball();
     let go = |_| ControlFlow::Continue(());
-    let grey = Renderer::new(&world)
+    let gray = Renderer::new(&world)
         .render_with_progress(&view, &settings, &go)
         .unwrap();
     // A second light behind the ball adds color to the world, but none to the picture.
@@ -115,12 +115,12 @@ fn grey_and_colored_rendering_agree_to_the_bit() {
         .render_with_progress(&view, &settings, &go)
         .unwrap();
     assert_eq!(
-        (grey.channels(), colored.channels()),
+        (gray.channels(), colored.channels()),
         (Channels::Grey, Channels::Rgb)
     );
     for row in 0..view.height {
         for col in 0..view.width {
-            assert_eq!(grey.rgba(col, row), colored.rgba(col, row));
+            assert_eq!(gray.rgba(col, row), colored.rgba(col, row));
         }
     }
 }
