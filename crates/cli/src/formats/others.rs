@@ -90,25 +90,35 @@ impl Other {
         }
         let srgb = Curve::Srgb;
         guarded(|| match self {
-            Self::Jpeg => self.read(JpegDecoder::new(file).map_err(words)?, srgb, None),
+            Self::Jpeg => self.read(Box::new(JpegDecoder::new(file).map_err(words)?), srgb, None),
             Self::Gif => {
                 let warning = is_animated_gif(open()?).then_some(ONE_FRAME);
-                self.read(GifDecoder::new(file).map_err(words)?, srgb, warning)
+                self.read(
+                    Box::new(GifDecoder::new(file).map_err(words)?),
+                    srgb,
+                    warning,
+                )
             }
             Self::Webp => {
                 let decoder = WebPDecoder::new(file).map_err(words)?;
                 webp::frame::check(&mut open()?, decoder.dimensions())?;
                 let warning = decoder.has_animation().then_some(ONE_FRAME);
-                self.read(decoder, srgb, warning)
+                self.read(Box::new(decoder), srgb, warning)
             }
-            Self::Radiance => self.read(HdrDecoder::new(file).map_err(words)?, srgb, None),
-            Self::Pnm => self.read(PnmDecoder::new(file).map_err(words)?, srgb, None),
-            Self::Tga => self.read(TgaDecoder::new(file).map_err(words)?, srgb, None),
-            Self::Bmp => self.read(BmpDecoder::new(file).map_err(words)?, srgb, None),
+            Self::Radiance => {
+                self.read(Box::new(HdrDecoder::new(file).map_err(words)?), srgb, None)
+            }
+            Self::Pnm => self.read(Box::new(PnmDecoder::new(file).map_err(words)?), srgb, None),
+            Self::Tga => self.read(Box::new(TgaDecoder::new(file).map_err(words)?), srgb, None),
+            Self::Bmp => self.read(Box::new(BmpDecoder::new(file).map_err(words)?), srgb, None),
             Self::Qoi => {
                 let curve = curve_of_qoi(&mut open()?);
                 let warning = (curve == Curve::Linear).then_some(SAID_TO_BE_LINEAR);
-                self.read(QoiDecoder::new(file).map_err(words)?, curve, warning)
+                self.read(
+                    Box::new(QoiDecoder::new(file).map_err(words)?),
+                    curve,
+                    warning,
+                )
             }
         })
     }
@@ -116,7 +126,7 @@ impl Other {
     /// Decodes a picture whose codes have this curve, unless the file contains a linear profile.
     fn read(
         self,
-        mut decoder: impl ImageDecoder,
+        mut decoder: Box<dyn ImageDecoder>,
         mut curve: Curve,
         mut warning: Warning,
     ) -> Result<Picture, String> {
@@ -155,7 +165,7 @@ impl Other {
         let color_type = decoder.color_type();
         let mut samples = memory::reserve(bytes as usize)?;
         samples.resize(bytes as usize, 0);
-        decoder.read_image(&mut samples).map_err(words)?;
+        decoder.read_image_boxed(&mut samples).map_err(words)?;
 
         let depth =
             Depth::of(color_type).ok_or_else(|| format!("its colors are {color_type:?}"))?;

@@ -4,6 +4,8 @@ use std::iter;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use glam::DVec4;
+
 use crate::base::failure::Failure;
 use crate::base::size::Size;
 use crate::formats::picture::Picture;
@@ -91,14 +93,9 @@ impl Pair {
     /// The absolute differences of all four values; infinite if one of the values is not finite.
     pub(super) fn differences(&self, col: u32) -> [f64; 4] {
         let (a, b) = (self.a.row.rgba(col), self.b.row.rgba(col));
-        [0, 1, 2, 3].map(|channel| {
-            let difference = (a[channel] - b[channel]).abs();
-            if difference.is_finite() {
-                difference
-            } else {
-                f64::INFINITY
-            }
-        })
+        let differences = (DVec4::from(a) - DVec4::from(b)).abs();
+        let infinite = DVec4::splat(f64::INFINITY);
+        DVec4::select(differences.is_finite_mask(), differences, infinite).to_array()
     }
 
     /// The difference of a pixel with these differences: the largest among the compared channels.
@@ -111,7 +108,7 @@ impl Pair {
     /// The largest differences that the rounding of both files can explain.
     pub(super) fn rounding(&self, col: u32) -> [f64; 4] {
         let (a, b) = (self.a.row.rounding(col), self.b.row.rounding(col));
-        [0, 1, 2, 3].map(|channel| a[channel] + b[channel])
+        (DVec4::from(a) + DVec4::from(b)).to_array()
     }
 
     /// Returns for each value whether one file contains the largest number of its format, and the other file a larger

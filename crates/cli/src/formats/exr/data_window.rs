@@ -200,7 +200,7 @@ impl DataWindow {
         } = place;
         let row = self.row_of_window().unwrap_or(0) % self.block.1;
         let line = row * columns * self.pixel_bytes + channel.before * columns;
-        let [start, end] = [col, columns].map(|col| line + col * channel.kind.bytes_per_sample());
-        &self.blocks[block][start..end]
+        let place = |col: usize| line + col * channel.kind.bytes_per_sample();
+        &self.blocks[block][place(col)..place(columns)]
     }
 }

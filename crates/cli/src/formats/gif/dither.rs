@@ -6,7 +6,9 @@
 
 use std::collections::HashMap;
 
-use super::histogram::Color;
+use glam::DVec3;
+
+use super::histogram::{Color, numbers};
 use super::palette::nearest;
 
 /// The side of the pattern.
@@ -19,7 +21,7 @@ const MOST_KNOWN: usize = 1 << 20;
 
 /// The palette, and the pairs that were computed.
 pub(super) struct Dither {
-    palette: Vec<[f64; 3]>,
+    palette: Vec<DVec3>,
     /// Two indices, and the number of positions in the pattern that have the second color.
     known: HashMap<Color, (u8, u8, u8)>,
     /// The most recent color, and its pair.
@@ -30,7 +32,7 @@ impl Dither {
     /// Begins with a palette of at most 256 colors.
     pub(super) fn new(palette: &[Color]) -> Self {
         Self {
-            palette: palette.iter().map(|color| color.map(f64::from)).collect(),
+            palette: palette.iter().map(|&color| numbers(color)).collect(),
             known: HashMap::new(),
             last: None,
         }
@@ -67,25 +69,21 @@ impl Dither {
     fn pair(&self, color: Color) -> (u8, u8, u8) {
         /// The weight of the squared differences of the pixels, relative to that of the mean.
         const NOISE: f64 = 0.1;
-        let color = color.map(f64::from);
+        let color = numbers(color);
         let first = nearest(&self.palette, color);
         let near = self.palette[first];
-        let wanted = [0, 1, 2].map(|channel| color[channel] - near[channel]);
-        let product = |one: &[f64; 3], other: &[f64; 3]| {
-            let [red, green, blue] = [0, 1, 2].map(|channel| one[channel] * other[channel]);
-            red + green + blue
-        };
-        let mut best = (first, 0.0, product(&wanted, &wanted));
-        for (second, other) in self.palette.iter().enumerate() {
-            let way = [0, 1, 2].map(|channel| other[channel] - near[channel]);
-            let (along, length) = (product(&wanted, &way), product(&way, &way));
+        let wanted = color - near;
+        let mut best = (first, 0.0, wanted.length_squared());
+        for (second, &other) in self.palette.iter().enumerate() {
+            let way = other - near;
+            let (along, length) = (wanted.dot(way), way.length_squared());
             if along <= 0.0 {
                 continue;
             }
             // The nearest color has at least half of the positions.
             let share = (along / length).min(0.5);
-            let left = [0, 1, 2].map(|channel| wanted[channel] - share * way[channel]);
-            let square = product(&left, &left) + NOISE * share * (1.0 - share) * length;
+            let left = wanted - share * way;
+            let square = left.length_squared() + NOISE * share * (1.0 - share) * length;
             if square < best.2 {
                 best = (second, share, square);
             }
@@ -124,15 +122,14 @@ mod tests {
     fn areas_have_the_mean_of_their_color() {
         let mut dither = Dither::new(&[[0, 0, 0], [100, 100, 100], [200, 0, 0]]);
         let mut mean = |color: Color| {
-            let mut sums = [0.0; 3];
+            let mut sum = DVec3::ZERO;
             for row in 0..SIDE {
                 for col in 0..SIDE {
                     let index = usize::from(dither.index(color, col, row));
-                    let found = dither.palette[index];
-                    sums = [0, 1, 2].map(|channel| sums[channel] + found[channel] / PLACES);
+                    sum += dither.palette[index] / PLACES;
                 }
             }
-            sums
+            sum.to_array()
         };
         assert_eq!(mean([0, 0, 0]), [0.0; 3]);
         assert_eq!(mean([100, 100, 100]), [100.0; 3]);

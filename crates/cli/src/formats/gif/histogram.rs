@@ -2,11 +2,18 @@
 
 use std::collections::BTreeSet;
 
+use glam::DVec3;
+
 /// The number of upper bits of a channel that determine the bin of a color.
 const BITS: u32 = 6;
 
 /// A color: codes of red, green and blue.
 pub(super) type Color = [u8; 3];
+
+/// The codes of a color as numbers.
+pub(super) fn numbers([red, green, blue]: Color) -> DVec3 {
+    DVec3::new(red.into(), green.into(), blue.into())
+}
 
 /// The counted colors.
 #[derive(Clone, Debug)]
@@ -33,7 +40,7 @@ struct Bin {
 /// A color that represents others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Weighted {
-    pub(super) color: [f64; 3],
+    pub(super) color: DVec3,
     /// The number of pixels.
     pub(super) weight: f64,
 }
@@ -106,7 +113,7 @@ impl Histogram {
             .map(|bin| {
                 let weight = bin.count as f64;
                 Weighted {
-                    color: bin.sums.map(|sum| sum as f64 / weight),
+                    color: DVec3::from(bin.sums.map(|sum| sum as f64)) / weight,
                     weight,
                 }
             })

@@ -6,7 +6,9 @@
 //! Source: X. Wu, "Efficient statistical computations for optimal color quantization", Graphics Gems II, 1991, for the cuts;
 //! S. Lloyd, "Least squares quantization in PCM", 1982, for the means.
 
-use super::histogram::{Color, Histogram, Weighted};
+use glam::DVec3;
+
+use super::histogram::{Color, Histogram, Weighted, numbers};
 
 /// A color is kept exactly if at least one pixel in this number of pixels has it, for example a background.
 const FLAT_SHARE: u64 = 400;
@@ -23,14 +25,14 @@ pub(super) fn choose(histogram: &Histogram, most: usize) -> Vec<Color> {
     let mut flat = histogram.flat(FLAT_SHARE);
     flat.truncate(MOST_FLAT);
     let means = histogram.means_beside(&flat);
-    let mut chosen: Vec<[f64; 3]> = flat.iter().map(|color| color.map(f64::from)).collect();
+    let mut chosen: Vec<DVec3> = flat.iter().map(|&color| numbers(color)).collect();
     chosen.extend(cut(means.clone(), most - flat.len()));
     for _ in 0..ROUNDS {
         improve(&mut chosen, flat.len(), &means);
     }
     let mut colors: Vec<Color> = chosen
         .iter()
-        .map(|color| color.map(|code| code.round() as u8))
+        .map(|color| color.to_array().map(|code| code.round() as u8))
         .collect();
     colors.sort_unstable();
     colors.dedup();
@@ -46,7 +48,7 @@ struct Part {
 }
 
 /// The means of this number of boxes.
-fn cut(colors: Vec<Weighted>, most: usize) -> Vec<[f64; 3]> {
+fn cut(colors: Vec<Weighted>, most: usize) -> Vec<DVec3> {
     let mut parts = vec![Part::new(colors)];
     while parts.len() < most {
         let gain = |part: &Part| part.cut.map_or(0.0, |(_, _, gain)| gain);
@@ -101,7 +103,7 @@ impl Part {
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     weight: f64,
-    color: [f64; 3],
+    color: DVec3,
 }
 
 impl Sums {
@@ -113,34 +115,29 @@ impl Sums {
 
     fn add(&mut self, other: &Weighted) {
         self.weight += other.weight;
-        for (sum, code) in self.color.iter_mut().zip(other.color) {
-            *sum += other.weight * code;
-        }
+        self.color += other.weight * other.color;
     }
 
     fn minus(&self, other: &Self) -> Self {
         let mut rest = *self;
         rest.weight -= other.weight;
-        for (sum, other) in rest.color.iter_mut().zip(other.color) {
-            *sum -= other;
-        }
+        rest.color -= other.color;
         rest
     }
 
-    fn mean(&self) -> [f64; 3] {
-        self.color.map(|sum| sum / self.weight)
+    fn mean(&self) -> DVec3 {
+        self.color / self.weight
     }
 
     /// The square of the mean, times the weight. The sum of squared differences from the mean is the sum of the squares of
     /// all colors minus this.
     fn square(&self) -> f64 {
-        let squares: f64 = self.color.iter().map(|sum| sum * sum).sum();
-        squares / self.weight
+        self.color.length_squared() / self.weight
     }
 }
 
 /// Replaces each chosen color, except the first `fixed`, by the mean of the colors that are nearest to it.
-fn improve(chosen: &mut [[f64; 3]], fixed: usize, colors: &[Weighted]) {
+fn improve(chosen: &mut [DVec3], fixed: usize, colors: &[Weighted]) {
     let mut sums = vec![Sums::default(); chosen.len()];
     for color in colors {
         sums[nearest(chosen, color.color)].add(color);
@@ -153,11 +150,10 @@ fn improve(chosen: &mut [[f64; 3]], fixed: usize, colors: &[Weighted]) {
 }
 
 /// The index of the color nearest to another one. Among equally near colors, it is the first.
-pub(super) fn nearest(colors: &[[f64; 3]], color: [f64; 3]) -> usize {
+pub(super) fn nearest(colors: &[DVec3], color: DVec3) -> usize {
     let mut best = (0, f64::INFINITY);
-    for (index, other) in colors.iter().enumerate() {
-        let [red, green, blue] = [0, 1, 2].map(|channel| other[channel] - color[channel]);
-        let square = red * red + green * green + blue * blue;
+    for (index, &other) in colors.iter().enumerate() {
+        let square = (other - color).length_squared();
         if square < best.1 {
             best = (index, square);
         }
@@ -189,10 +185,10 @@ mod tests {
         let colors = choose(&histogram, 17);
         assert_eq!(colors.len(), 17);
         assert!(colors.contains(&[10, 20, 30]));
-        let colors: Vec<[f64; 3]> = colors.iter().map(|color| color.map(f64::from)).collect();
+        let colors: Vec<DVec3> = colors.iter().map(|&color| numbers(color)).collect();
         let squares: f64 = (0..=255)
             .map(|code| {
-                let color = [f64::from(code); 3];
+                let color = DVec3::splat(code.into());
                 let chosen = colors[nearest(&colors, color)];
                 (chosen[0] - color[0]).powi(2)
             })

@@ -89,8 +89,8 @@ impl Samples for Codes {
     fn rgba(&self, col: u32) -> [f64; 4] {
         let [red, green, blue, alpha] = self.codes(col);
         let alpha = alpha as f64 / most(self.deep);
-        let [red, green, blue] = [red, green, blue].map(|code| self.light[code] * alpha);
-        [red, green, blue, alpha]
+        let light = |code: usize| self.light[code] * alpha;
+        [light(red), light(green), light(blue), alpha]
     }
 
     /// Color and alpha are rounded separately; the error is largest if both were rounded down.
@@ -105,8 +105,7 @@ impl Samples for Codes {
         let alpha = alpha as f64 / most;
         let alpha_above = (alpha + alpha_step).min(1.0);
         let color = |code: usize| self.light_above[code] * alpha_above - self.light[code] * alpha;
-        let [red, green, blue] = [red, green, blue].map(color);
-        [red, green, blue, alpha_step]
+        [color(red), color(green), color(blue), alpha_step]
     }
 
     fn is_full(&self, col: u32) -> [bool; 4] {

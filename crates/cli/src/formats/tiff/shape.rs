@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use marbles_core::{Channels, Image};
 use tiff::encoder::compression::{CompressionAlgorithm, Deflate, DeflateLevel};
 
@@ -110,7 +111,7 @@ impl Shape {
                         clipped += u64::from(is_too_large);
                     }
                 } else {
-                    let color = color.map(|value| gain * value);
+                    let color = (gain * DVec3::from(color)).to_array();
                     let values = color[..self.colors].iter().chain([&alpha]);
                     let (numbers, _) = pixel.as_chunks_mut();
                     for (number, &value) in numbers.iter_mut().zip(values) {
@@ -151,11 +152,13 @@ const MOST: f64 = u16::MAX as f64;
 const MOST_LIGHT: f64 = (MOST + 0.5) / MOST;
 
 /// The code nearest to a number from 0 to 1; the cast saturates.
+#[inline]
 fn code(value: f64) -> u16 {
     (value * MOST + 0.5) as u16
 }
 
 /// The float nearest to a number, and whether it is finite and too large for one.
+#[inline]
 fn float(value: f64) -> (f32, bool) {
     let float = value as f32;
     if float.is_infinite() && value.is_finite() {
