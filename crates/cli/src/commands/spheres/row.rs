@@ -38,9 +38,10 @@ pub(super) fn write_row(
     let area = ellipse.map(|ellipse| view.area_of(ellipse));
     write_numbers(to, area.map(|area| [area]))?;
     write!(to, ",{},{}", visible.area, visible.error)?;
+    // The visible area may be larger by its error.
     let fraction = area
         .filter(|area| *area > 0.0)
-        .map(|area| [visible.area / area]);
+        .map(|area| [(visible.area / area).min(1.0)]);
     write_numbers(to, fraction)?;
     writeln!(to)
 }
