@@ -73,15 +73,17 @@ pub use model::world::{LightPart, MaterialId, World};
 pub use numeric::angle::Angle;
 pub use picture::averages::{Average, AverageSettings};
 pub use picture::geometry::Geometry;
-pub use picture::image::{Channels, Image, Summary};
+pub use picture::image::{Channels, Image};
 pub use picture::pixel::{Evidence, Method, Status, Work};
 pub use picture::progress::Cancelled;
 pub use picture::quantities::{Axes, Depth, GeometrySettings, Precision, Quantities, Quantity};
 pub use picture::srgb;
+pub use picture::summary::Summary;
 pub use picture::window::Window;
 pub use render::renderer::Renderer;
 pub use render::settings::Settings;
-pub use render::strips::{Rendering, Sink, Strip};
+pub use render::sink::{Sink, Strip};
+pub use render::strips::Rendering;
 
 /// Runs the program of the README.
 #[cfg(doctest)]

@@ -11,5 +11,6 @@ pub(crate) mod plane;
 pub(crate) mod progress;
 pub(crate) mod quantities;
 pub mod srgb;
+pub(crate) mod summary;
 pub(crate) mod tile;
 pub(crate) mod window;

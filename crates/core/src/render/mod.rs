@@ -7,4 +7,5 @@ mod centers;
 mod integrator;
 pub(crate) mod renderer;
 pub(crate) mod settings;
+pub(crate) mod sink;
 pub(crate) mod strips;
