@@ -19,7 +19,7 @@ fn every_command_has_a_page() {
     let (_, page, _) = run_here(&["man", "farm-slurm"]);
     assert!(page.replace("\\-", "-").contains("--chunk"), "{page}");
     let (_, page, _) = run_here(&["man", "render"]);
-    let example = ".SH EXAMPLES\n.nf\n  marbles render ball.ron\n      ball.png";
+    let example = ".SH EXAMPLES\n.nf\n  marbles new ball.ron\n      write a scene";
     assert!(page.contains(example), "{page}");
     assert!(
         page.contains(".SH \"EXIT CODES\"\n.nf\n  0    everything"),
