@@ -14,13 +14,13 @@ use crate::sampling::Pairs;
 const FIRST: u32 = 32;
 const MOST: u32 = 512;
 
-/// The units that the most strata of a pixel may cost, about 80 ms: enough for them over a sphere under a lamp, or over
-/// three under two suns. The looks before them cost a third of it.
-const MOST_UNITS: u64 = 30_000_000;
+/// The units that the most strata of a pixel may cost, about 80 ms: enough for them over three spheres under a lamp, or
+/// under some suns. The looks before them cost a third of it.
+const MOST_UNITS: u64 = 1 << 25;
 
 /// The units of a light, whose ray may meet anything.
 const OF_SUN: u64 = 4;
-const OF_LAMP: u64 = 40;
+const OF_LAMP: u64 = 32;
 
 /// The number of samples in so many strata on a side.
 fn samples(side: u32) -> u64 {
@@ -158,9 +158,9 @@ mod tests {
             let is_enough = most == MOST || samples(2 * most) * of_sample > MOST_UNITS;
             assert!(is_enough && most.is_multiple_of(2), "{of_sample}: {most}");
         }
-        // A sphere under a lamp, and three under two suns, each with three occluders.
-        assert_eq!(most_strata(OF_SPHERE + OF_LAMP), MOST);
-        assert_eq!(most_strata(3 * OF_SPHERE + 2 * (OF_SUN + 3)), MOST);
+        // Three spheres under a lamp, and under four suns, each with three occluders.
+        assert_eq!(most_strata(3 * OF_SPHERE + OF_LAMP + 3), MOST);
+        assert_eq!(most_strata(3 * OF_SPHERE + 4 * (OF_SUN + 3)), MOST);
         // Three spheres under twenty lamps.
         assert!(most_strata(3 * OF_SPHERE + 20 * OF_LAMP) < MOST);
     }
