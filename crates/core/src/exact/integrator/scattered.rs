@@ -14,11 +14,11 @@ use crate::sampling::Pairs;
 const FIRST: u32 = 32;
 const MOST: u32 = 512;
 
-/// The units that the most strata of a pixel may cost, about 80 ms: enough for them over three spheres under a lamp, or
-/// under some suns. The looks before them cost a third of it.
-const MOST_UNITS: u64 = 1 << 25;
+/// The tests that the most strata of a pixel may take, about 80 ms: enough for them over three spheres under a lamp, or
+/// under some suns. The looks before them take a third of it.
+const MOST_TESTS: u64 = 1 << 25;
 
-/// The units of a light, whose ray may meet anything.
+/// The tests that a light takes, whose ray may meet anything.
 const OF_SUN: u64 = 4;
 const OF_LAMP: u64 = 32;
 
@@ -38,10 +38,10 @@ pub(super) struct Scattering {
     most: u32,
 }
 
-/// The most strata on a side that samples of so many units allow.
-fn most_strata(of_sample: u64) -> u32 {
+/// The most strata on a side that samples of so many tests allow.
+fn most_strata(tests: u64) -> u32 {
     let mut most = MOST;
-    while most > FIRST && samples(most) * of_sample > MOST_UNITS {
+    while most > FIRST && samples(most) * tests > MOST_TESTS {
         most /= 2;
     }
     most
@@ -85,15 +85,14 @@ impl Exact<'_> {
             ray + most_occluders as u64
         };
         let lights = self.index.visibility.lights();
-        let of_sample =
-            OF_SPHERE * candidates.len() as u64 + lights.iter().map(of_light).sum::<u64>();
-        let most = most_strata(of_sample);
+        let of_spheres = OF_SPHERE * candidates.len() as u64;
+        let most = most_strata(of_spheres + lights.iter().map(of_light).sum::<u64>());
         let may_meet = least_error(range, samples(most) as f64) < self.tolerance;
         let is_few = candidates.len() <= MOST_OF_SAMPLES
             && !candidates.iter().any(|&sphere| self.is_far(sphere));
         (may_meet && !is_of_moment && is_few).then_some(Scattering {
             range,
-            of_sample,
+            of_sample: of_spheres + most_occluders as u64,
             most,
         })
     }
@@ -152,11 +151,11 @@ mod tests {
 
     #[test]
     fn strata_cost_no_more_than_a_pixel_may() {
-        for of_sample in 1..2000 {
-            let most = most_strata(of_sample);
-            assert!(samples(most) * of_sample <= MOST_UNITS || most == FIRST);
-            let is_enough = most == MOST || samples(2 * most) * of_sample > MOST_UNITS;
-            assert!(is_enough && most.is_multiple_of(2), "{of_sample}: {most}");
+        for tests in 1..2000 {
+            let most = most_strata(tests);
+            assert!(samples(most) * tests <= MOST_TESTS || most == FIRST);
+            let is_enough = most == MOST || samples(2 * most) * tests > MOST_TESTS;
+            assert!(is_enough && most.is_multiple_of(2), "{tests}: {most}");
         }
         // Three spheres under a lamp, and under four suns, each with three occluders.
         assert_eq!(most_strata(3 * OF_SPHERE + OF_LAMP + 3), MOST);
