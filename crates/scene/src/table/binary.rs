@@ -58,6 +58,7 @@ impl Layout {
 
     /// Refuses a table that cannot be read from a file of this size.
     fn check(&self, size: Option<u64>) -> Result<(), LocatedFault> {
+        check_row(self.rows, self.noun, &self.kinds)?;
         let stride = self.stride();
         let behind = size.unwrap_or(0).saturating_sub(self.start);
         let needed = self.rows.checked_mul(stride);
@@ -72,6 +73,15 @@ impl Layout {
         }
         Ok(())
     }
+}
+
+/// Refuses rows without bytes, of which a file of any size has as many as its header says.
+fn check_row(rows: u64, noun: &str, kinds: &[Kind]) -> Result<(), LocatedFault> {
+    if rows > 0 && kinds.iter().all(|kind| kind.size() == 0) {
+        let message = format!("expected {noun} of at least 1 byte, found {rows} of none");
+        return Err(LocatedFault::of_file(message));
+    }
+    Ok(())
 }
 
 /// About the part of the file that is held at a time, and the longest row, in bytes.
@@ -131,6 +141,8 @@ pub(crate) fn read_columns(
     count: u64,
     plan: &Plan,
 ) -> Result<Rows, TableError> {
+    let kinds: Vec<Kind> = columns.iter().map(|column| column.kind).collect();
+    check_row(count, "rows", &kinds)?;
     let mut rows = Rows::new(plan);
     let mut values = Vec::new();
     for (index, (uses, column)) in plan.uses.iter().zip(columns).enumerate() {

@@ -229,3 +229,42 @@ fn many_binary_rows_come_in_their_order() {
         }
     }
 }
+
+/// A header of any number of rows without bytes is no longer than others.
+#[test]
+fn rows_without_bytes_are_refused() {
+    let constants = "columns: (x: Constant(0), y: Constant(0), z: Constant(0)), radius: 1";
+    let header = |kind: &str, rows: u64| {
+        format!("{{'descr': [('a', '{kind}')], 'fortran_order': False, 'shape': ({rows},)}}")
+    };
+    let many = 1_000_000_000_000_000;
+    for kind in ["|S0", "<U0", "|V0"] {
+        assert_eq!(
+            refusal("a.npy", npy(&header(kind, many), b""), constants),
+            "a.npy: expected rows of at least 1 byte, found 1000000000000000 of none"
+        );
+    }
+    // No room is made for rows that may not be kept.
+    let kept = format!("{constants}, keep: [(\"a\", Is(\"b\"))]");
+    let message = refusal("a.npy", npy(&header("|S0", many), b""), &kept);
+    assert!(
+        message.ends_with("found 1000000000000000 of none"),
+        "{message}"
+    );
+    let archive = formats::npz(&[("a", npy(&header("|S0", 1000), b""))]);
+    assert_eq!(
+        refusal("a.npz", archive, constants),
+        "a.npz: expected rows of at least 1 byte, found 1000 of none"
+    );
+    for format in ["binary_little_endian", "binary_big_endian"] {
+        let ply = format!("ply\nformat {format} 1.0\nelement vertex {many}\nend_header\n");
+        assert_eq!(
+            refusal("a.ply", ply, constants),
+            "a.ply: expected vertices of at least 1 byte, found 1000000000000000 of none"
+        );
+    }
+    let ply = format!("ply\nformat ascii 1.0\nelement vertex {many}\nend_header\n\n\n");
+    assert!(refusal("a.ply", ply, constants).contains("found the end of the file"));
+    let one = npy(&header("|S1", 2), b"ab");
+    assert_eq!(spheres(&scene("a.npy", one, constants)).len(), 2);
+}
