@@ -44,6 +44,18 @@ pub(super) fn check_count(stored: u64, count: u64, noun: &str) -> Result<(), Loc
     Err(LocatedFault::of_file(message))
 }
 
+/// Refuses more bytes in memory, of what `noun` calls, than a compressed file of this size may hold.
+pub(super) fn check_bytes(stored: u64, bytes: u64, noun: &str) -> Result<(), LocatedFault> {
+    let most = most_bytes(stored);
+    if bytes <= most {
+        return Ok(());
+    }
+    let message = format!(
+        "expected {noun} of at most {most} bytes in a compressed file of {stored} bytes, found more: {REMEDY}"
+    );
+    Err(LocatedFault::of_file(message))
+}
+
 /// The way to read a file that holds more.
 pub(super) const REMEDY: &str = "decompress it if you want to read it anyway";
 

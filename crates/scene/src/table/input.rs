@@ -137,6 +137,11 @@ impl<'watch> Input<'watch> {
         self.source.check_count(count, noun)
     }
 
+    /// Refuses more bytes in memory, of what `noun` calls, than a compressed file may hold.
+    pub(crate) fn check_bytes(&self, bytes: u64, noun: &str) -> Result<(), LocatedFault> {
+        self.source.check_bytes(bytes, noun)
+    }
+
     /// True where any byte can be read next.
     pub(crate) fn can_seek(&self) -> bool {
         self.source.can_seek()

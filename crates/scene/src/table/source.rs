@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use super::compression::{Compression, REMEDY, check_count, most_bytes};
+use super::compression::{Compression, REMEDY, check_bytes, check_count, most_bytes};
 use super::decoded::Decoded;
 use super::file_state::FileState;
 use crate::text::LocatedFault;
@@ -72,6 +72,14 @@ impl<'watch> Source<'watch> {
     pub(crate) fn check_count(&self, count: u64, noun: &str) -> Result<(), LocatedFault> {
         match self.stream {
             Stream::Decoded(_) => check_count(self.state.size, count, noun),
+            Stream::Plain(_) => Ok(()),
+        }
+    }
+
+    /// Refuses more bytes in memory, of what `noun` calls, than a compressed file may hold.
+    pub(crate) fn check_bytes(&self, bytes: u64, noun: &str) -> Result<(), LocatedFault> {
+        match self.stream {
+            Stream::Decoded(_) => check_bytes(self.state.size, bytes, noun),
             Stream::Plain(_) => Ok(()),
         }
     }

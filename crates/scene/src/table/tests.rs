@@ -28,6 +28,7 @@ mod misread;
 mod npy;
 mod ply;
 mod rows;
+mod vtk;
 mod xyz;
 
 /// A folder that is gone after the test.

@@ -4,7 +4,7 @@
 //! "VTK File Formats", The VTK User's Guide, Kitware.
 
 use std::borrow::Cow;
-use std::io::Read;
+use std::io::{self, Read};
 
 use super::binary::{self, Column};
 use super::columns::{MOST_COLUMNS, components, marked};
@@ -29,7 +29,37 @@ struct Dataset {
     /// The number of these points or cells.
     rows: u64,
     names: Vec<String>,
-    columns: Vec<Column<'static>>,
+    arrays: Vec<Array>,
+    /// The bytes of all arrays.
+    held: u64,
+    /// The number of arrays that were said to be left out.
+    left_out: usize,
+}
+
+/// The most arrays that are said to be left out, of which a small file may have millions.
+const MOST_LEFT_OUT: usize = 100;
+
+/// Numbers of all points, those of a point side by side.
+struct Array {
+    /// The way in which they are held.
+    kind: Kind,
+    /// The way in which the file says that they are stored.
+    declared: Kind,
+    /// The number of components.
+    size: usize,
+    bytes: Vec<u8>,
+    /// The byte of the file at which they start.
+    start: u64,
+}
+
+/// The type of an array's numbers.
+#[derive(Clone, Copy)]
+enum Type {
+    Number(Number),
+    /// Eight to a byte in a binary file, from its highest bit.
+    Bit,
+    /// Bytes that a text writes as fractions of 255.
+    Color,
 }
 
 /// Reads the points.
@@ -66,6 +96,7 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             [b"POINTS", points, kind] => {
                 data.points = count(points).ok_or_else(|| refuse("the number of points"))?;
                 let kind = self::kind(kind).ok_or_else(|| refuse("a type of numbers"))?;
+                input.check_count(data.points, "points")?;
                 let points = data.points;
                 data.take(input, "position", (3, points), kind)?;
             }
@@ -110,8 +141,7 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             // Numbers from 0 to 1, or bytes.
             [b"COLOR_SCALARS", name, size] => {
                 let size = count(size).ok_or_else(|| refuse("the number of components"))?;
-                let kind = Kind::Number(Number::U8, Order::Big);
-                data.attribute(input, &text(name), size, kind)?;
+                data.attribute(input, &text(name), size, Type::Color)?;
             }
             [b"FIELD", _, arrays] => {
                 let arrays = count(arrays).ok_or_else(|| refuse("the number of arrays"))?;
@@ -135,20 +165,17 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
                         data.skip_array(input, cells)?;
                         data.skip_array(input, size)?;
                     }
-                    false => data.skip(input, size, Kind::Number(Number::I32, Order::Big))?,
+                    false => data.skip(input, size, Type::Number(Number::I32))?,
                 }
             }
             [b"CELL_TYPES", cells] => {
                 let cells = count(cells).ok_or_else(|| refuse("the number of cells"))?;
-                data.skip(input, cells, Kind::Number(Number::I32, Order::Big))?;
+                data.skip(input, cells, Type::Number(Number::I32))?;
             }
             [b"LOOKUP_TABLE", _, size] => {
                 let size = count(size).ok_or_else(|| refuse("the number of colors"))?;
-                data.skip(
-                    input,
-                    size.saturating_mul(4),
-                    Kind::Number(Number::U8, Order::Big),
-                )?;
+                let bytes = size.saturating_mul(4);
+                data.skip(input, bytes, Type::Number(Number::U8))?;
             }
             [b"METADATA"] => {
                 while input
@@ -179,9 +206,67 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
     if data.names.is_empty() {
         return Err(LocatedFault::at_end(input.number + 1, "`POINTS …`").into());
     }
-    let kinds: Vec<Kind> = data.columns.iter().map(|column| column.kind).collect();
+    let declared = |array: &Array| std::iter::repeat_n(array.declared, array.size);
+    let kinds: Vec<Kind> = data.arrays.iter().flat_map(declared).collect();
     let plan = binary::plan(data.names, &kinds, request).map_err(LocatedFault::of_file)?;
-    binary::read_columns(&data.columns, data.points, &plan)
+    let mut uses = &plan.uses[..];
+    for array in &mut data.arrays {
+        let (own, others) = uses.split_at(array.size);
+        if own.iter().all(|uses| uses.slots().is_empty()) {
+            array.bytes = Vec::new();
+        }
+        uses = others;
+    }
+    let columns: Vec<Column<'_>> = data.arrays.iter().flat_map(Array::columns).collect();
+    binary::read_columns(&columns, data.points, &plan)
+}
+
+impl Array {
+    /// A column for each component.
+    fn columns(&self) -> impl Iterator<Item = Column<'_>> {
+        let size = self.kind.size() as usize;
+        (0..self.size).map(move |component| Column {
+            kind: self.kind,
+            bytes: Cow::Borrowed(&self.bytes),
+            offset: component * size,
+            step: self.size * size,
+            start: self.start,
+        })
+    }
+}
+
+impl Type {
+    /// The way in which numbers of this type are stored, or held where they are bits; big-endian.
+    fn kind(self) -> Kind {
+        let number = match self {
+            Self::Number(number) => number,
+            // No codes of colors, which are bytes without a sign.
+            Self::Bit => Number::I8,
+            Self::Color => Number::U8,
+        };
+        Kind::Number(number, Order::Big)
+    }
+
+    /// The bytes of so many numbers in a binary file.
+    fn bytes(self, count: u64) -> u64 {
+        match self {
+            Self::Bit => count.div_ceil(8),
+            _ => count.saturating_mul(self.kind().size()),
+        }
+    }
+
+    /// The number that a text writes as this.
+    ///
+    /// # Errors
+    /// Returns what was expected instead.
+    fn of_text(self, value: f64) -> Result<f64, &'static str> {
+        match self {
+            // The codes that binary files and VTK itself hold.
+            Self::Color if (0.0..=1.0).contains(&value) => Ok((255.0 * value).round()),
+            Self::Color => Err("a number from 0 to 1 for `COLOR_SCALARS`"),
+            _ => Ok(value),
+        }
+    }
 }
 
 impl Dataset {
@@ -191,10 +276,13 @@ impl Dataset {
         input: &mut Input<'_>,
         name: &str,
         size: u64,
-        kind: Kind,
+        kind: Type,
     ) -> Result<(), TableError> {
         let rows = self.rows;
-        self.take(input, name, (size, rows), kind)
+        match self.is_of_points {
+            true => self.take(input, name, (size, rows), kind),
+            false => self.skip(input, size.saturating_mul(rows), kind),
+        }
     }
 
     /// Reads an array of a field.
@@ -233,7 +321,8 @@ impl Dataset {
                 if rows == self.points && self.is_of_points {
                     self.take(input, &name, (size, rows), kind)
                 } else {
-                    if self.is_of_points {
+                    if self.is_of_points && self.left_out < MOST_LEFT_OUT {
+                        self.left_out += 1;
                         let (points, shown) = (self.points, marked(&name));
                         let told = format!(
                             "the array {shown} has {rows} rows, but there are {points} points: it is not read"
@@ -248,73 +337,57 @@ impl Dataset {
         }
     }
 
-    /// Reads so many components of so many points.
+    /// Reads so many components of so many points, or passes over none and over more than a table may have.
     fn take(
         &mut self,
         input: &mut Input<'_>,
         name: &str,
         (size, rows): (u64, u64),
-        kind: Kind,
+        kind: Type,
     ) -> Result<(), TableError> {
+        let count = size.saturating_mul(rows);
+        if size == 0 || size > (MOST_COLUMNS - self.names.len()) as u64 {
+            return self.skip(input, count, kind);
+        }
+        let declared = kind.kind();
+        let held = match self.is_binary {
+            true => declared,
+            false => Kind::little(Number::F64),
+        };
+        // Texts of digits and spaces take less than the numbers.
+        self.held = self.held.saturating_add(count.saturating_mul(held.size()));
+        input.check_bytes(self.held, "numbers")?;
         let start = input.position;
-        let (bytes, kind) = self.numbers(input, size.saturating_mul(rows), kind)?;
-        let is_needed = name == "position" || self.is_of_points;
-        if !is_needed || size > (MOST_COLUMNS - self.names.len()) as u64 {
-            return Ok(());
-        }
-        let step = kind.size() * size;
-        for (component, name) in (0..).zip(components(name, size)) {
-            self.names.push(name);
-            self.columns.push(Column {
-                kind,
-                bytes: Cow::Owned(column(&bytes, kind, component, step)),
-                offset: 0,
-                step: kind.size() as usize,
-                start,
-            });
-        }
+        let bytes = match self.is_binary {
+            true => binary_numbers(input, count, kind)?,
+            false => {
+                let mut bytes = Vec::new();
+                text_numbers(input, count, |value| {
+                    bytes.extend(kind.of_text(value)?.to_le_bytes());
+                    Ok(())
+                })?;
+                bytes
+            }
+        };
+        self.names.extend(components(name, size));
+        self.arrays.push(Array {
+            kind: held,
+            declared,
+            size: size as usize,
+            bytes,
+            start,
+        });
         Ok(())
     }
 
-    /// Reads so many numbers; those of a text become doubles.
-    fn numbers(
-        &mut self,
-        input: &mut Input<'_>,
-        count: u64,
-        kind: Kind,
-    ) -> Result<(Vec<u8>, Kind), TableError> {
-        if self.is_binary {
-            let all = count.saturating_mul(kind.size());
-            let mut bytes = Vec::new();
-            input.by_ref().take(all).read_to_end(&mut bytes)?;
-            if (bytes.len() as u64) < all {
-                let message = format!("expected {all} bytes of numbers, found {}", bytes.len());
-                return Err(LocatedFault::of_file(message).into());
-            }
-            return Ok((bytes, kind));
+    /// Passes over so many numbers.
+    fn skip(&self, input: &mut Input<'_>, count: u64, kind: Type) -> Result<(), TableError> {
+        if !self.is_binary {
+            return text_numbers(input, count, |_| Ok(()));
         }
-        let mut bytes = Vec::new();
-        let mut found = 0;
-        while found < count {
-            let number = input.number + 1;
-            let expected = format!("{count} numbers ({found} read)");
-            let line = input.next()?;
-            let line = line.ok_or_else(|| LocatedFault::at_end(number, &expected))?;
-            let mut words = fields::Fields::new(line, &Division::Words);
-            while let Some(word) = words.next() {
-                let value = parse(&line[word.clone()], false);
-                let value = value.filter(|_| found < count);
-                let value =
-                    value.ok_or_else(|| LocatedFault::expected(number, line, word, &expected))?;
-                bytes.extend(value.to_le_bytes());
-                found += 1;
-            }
-        }
-        Ok((bytes, Kind::little(Number::F64)))
-    }
-
-    fn skip(&mut self, input: &mut Input<'_>, count: u64, kind: Kind) -> Result<(), TableError> {
-        self.numbers(input, count, kind).map(|_| ())
+        let all = kind.bytes(count);
+        let passed = io::copy(&mut input.by_ref().take(all), &mut io::sink())?;
+        check_length(all, passed)
     }
 
     /// Passes over an array `NAME TYPE` of so many numbers.
@@ -334,25 +407,62 @@ impl Dataset {
     }
 }
 
-/// The values of one of several components.
-fn column(bytes: &[u8], kind: Kind, component: u64, step: u64) -> Vec<u8> {
-    let size = kind.size() as usize;
-    let offset = component as usize * size;
-    let values = bytes.chunks_exact((step as usize).max(1));
-    values
-        .flat_map(|all| &all[offset..offset + size])
-        .copied()
-        .collect()
+/// The bytes of so many numbers of a binary file, with a byte for each bit.
+fn binary_numbers(input: &mut Input<'_>, count: u64, kind: Type) -> Result<Vec<u8>, TableError> {
+    let all = kind.bytes(count);
+    let mut bytes = Vec::new();
+    input.by_ref().take(all).read_to_end(&mut bytes)?;
+    check_length(all, bytes.len() as u64)?;
+    let bit = |at: u64| bytes[(at / 8) as usize] >> (7 - at % 8) & 1;
+    Ok(match kind {
+        Type::Bit => (0..count).map(bit).collect(),
+        _ => bytes,
+    })
+}
+
+/// Refuses numbers that the end of the file cuts.
+fn check_length(expected: u64, found: u64) -> Result<(), TableError> {
+    if found < expected {
+        let message = format!("expected {expected} bytes of numbers, found {found}");
+        return Err(LocatedFault::of_file(message).into());
+    }
+    Ok(())
+}
+
+/// Hands out so many numbers of a text; `take` returns what it expects instead of one.
+fn text_numbers(
+    input: &mut Input<'_>,
+    count: u64,
+    mut take: impl FnMut(f64) -> Result<(), &'static str>,
+) -> Result<(), TableError> {
+    let mut found = 0;
+    while found < count {
+        let number = input.number + 1;
+        let expected = format!("{count} numbers ({found} read)");
+        let line = input.next()?;
+        let line = line.ok_or_else(|| LocatedFault::at_end(number, &expected))?;
+        let mut words = fields::Fields::new(line, &Division::Words);
+        while let Some(word) = words.next() {
+            let taken = match parse(&line[word.clone()], false) {
+                Some(value) if found < count => take(value),
+                _ => Err(&*expected),
+            };
+            taken.map_err(|expected| LocatedFault::expected(number, line, word, expected))?;
+            found += 1;
+        }
+    }
+    Ok(())
 }
 
 fn text(word: &[u8]) -> String {
     String::from_utf8_lossy(word).into_owned()
 }
 
-/// The type of this name; binary numbers are big-endian.
-fn kind(name: &[u8]) -> Option<Kind> {
+/// The type of this name.
+fn kind(name: &[u8]) -> Option<Type> {
     let number = match name.to_ascii_lowercase().as_slice() {
-        b"unsigned_char" | b"bit" => Number::U8,
+        b"bit" => return Some(Type::Bit),
+        b"unsigned_char" => Number::U8,
         b"char" => Number::I8,
         b"unsigned_short" => Number::U16,
         b"short" => Number::I16,
@@ -364,5 +474,5 @@ fn kind(name: &[u8]) -> Option<Kind> {
         b"double" => Number::F64,
         _ => return None,
     };
-    Some(Kind::Number(number, Order::Big))
+    Some(Type::Number(number))
 }
