@@ -113,8 +113,7 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
                 let size = size.first().map_or(Some(1), |size| count(size));
                 let size = size.ok_or_else(|| refuse("the number of components"))?;
                 let kind = self::kind(kind).ok_or_else(|| refuse("a type of numbers"))?;
-                // The name of a table of colors.
-                input.next()?;
+                pass_lookup_table(input)?;
                 data.attribute(input, &text(name), size, kind)?;
             }
             [b"VECTORS" | b"NORMALS", name, kind] => {
@@ -219,6 +218,23 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
     }
     let columns: Vec<Column<'_>> = data.arrays.iter().flat_map(Array::columns).collect();
     binary::read_columns(&columns, data.points, &plan)
+}
+
+/// Passes over the line behind `SCALARS` that names a table of colors; no numbers are taken for it.
+fn pass_lookup_table(input: &mut Input<'_>) -> Result<(), TableError> {
+    let expected = "`LOOKUP_TABLE …` on the line after `SCALARS …`";
+    loop {
+        let number = input.number + 1;
+        let line = input.next()?;
+        let line = line.ok_or_else(|| LocatedFault::at_end(number, expected))?;
+        match fields::all(line, &Division::Words).first() {
+            None => {}
+            Some(word) if word.eq_ignore_ascii_case(b"LOOKUP_TABLE") => return Ok(()),
+            Some(_) => {
+                return Err(LocatedFault::expected(number, line, 0..line.len(), expected).into());
+            }
+        }
+    }
 }
 
 impl Array {

@@ -58,6 +58,40 @@ fn colors_are_codes_in_text_and_in_bytes() {
     }
 }
 
+#[test]
+fn scalars_without_a_lookup_table_are_refused() {
+    let head = b"SCALARS radius float 1\n";
+    // The second number holds a line feed.
+    let bytes = [[0x3f, 0x80, 0, 0], [0x40, b'\n', 0, 0], [0x40, 0, 0, 0]].concat();
+    let behind = b"\nSCALARS b float 1\nLOOKUP_TABLE default\n";
+    let all = [&head[..], &bytes, behind, &bytes].concat();
+    let expected = "expected `LOOKUP_TABLE \u{2026}` on the line after `SCALARS \u{2026}`, found ";
+    let message = refusal("a.vtk", points("BINARY", 3, &all), "");
+    assert!(message.contains(expected), "{message}");
+    assert_eq!(
+        refusal(
+            "a.vtk",
+            points("ASCII", 2, &[&head[..], b"1\n2\n3\n"].concat()),
+            ""
+        ),
+        format!("a.vtk:11:1: {expected}1")
+    );
+    for format in ["BINARY", "ASCII"] {
+        assert_eq!(
+            refusal("a.vtk", points(format, 0, head), "")
+                .split(": ")
+                .nth(1),
+            Some(&*format!("{expected}the end of the file"))
+        );
+    }
+    for line in ["lookup_table default\n", "\nLOOKUP_TABLE default\n"] {
+        let all = [&head[..], line.as_bytes(), &bytes].concat();
+        let scene = scene("a.vtk", points("BINARY", 3, &all), "");
+        let radii: Vec<f64> = spheres(&scene).iter().map(|sphere| sphere[3]).collect();
+        assert_eq!(radii, [1.0, 2.156_25, 2.0]);
+    }
+}
+
 /// Eight to a byte where they are binary, of points and of cells.
 #[test]
 fn bits_are_unpacked() {
