@@ -163,6 +163,9 @@ impl Names {
     }
 }
 
+/// The part of a name that several columns share, in characters: each of them has a copy.
+const LONGEST_SHARED: usize = 1000;
+
 /// The names of the columns that hold `count` values called `name` together.
 pub(crate) fn components(name: &str, count: u64) -> Vec<String> {
     let names = match (name.to_ascii_lowercase().as_str(), count) {
@@ -172,8 +175,9 @@ pub(crate) fn components(name: &str, count: u64) -> Vec<String> {
         ("color" | "colour", 3) => ["red", "green", "blue"],
         (_, 1) => return vec![name.to_owned()],
         _ => {
+            let shared: String = name.chars().take(LONGEST_SHARED).collect();
             let numbers = 1..=count;
-            return numbers.map(|number| format!("{name}_{number}")).collect();
+            return numbers.map(|number| format!("{shared}_{number}")).collect();
         }
     };
     names.map(String::from).into()

@@ -195,6 +195,18 @@ fn arrays_that_are_left_out_are_said_up_to_a_hundred_times() {
     );
 }
 
+/// Every component has the name of its array.
+#[test]
+fn long_names_are_not_multiplied() {
+    let arrays = format!("FIELD f 1\n{} 9000 1 float\n", "n".repeat(500_000));
+    let file = points("ASCII", 1, (arrays + &"0 ".repeat(9000)).as_bytes());
+    let scene = scene("a.vtk", file, "radius: 1");
+    assert_eq!(spheres(&scene).len(), 1);
+    let long = crate::table::columns::components(&"n".repeat(500_000), 9);
+    assert!(long.iter().all(|name| name.len() < 1010));
+    assert!(long[8].ends_with("n_9"));
+}
+
 /// Components lie side by side.
 #[test]
 fn binary_numbers_are_refused_by_their_byte() {
