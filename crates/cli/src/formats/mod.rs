@@ -11,6 +11,7 @@ pub(crate) mod frame_rate;
 mod gif;
 mod guard;
 mod half;
+mod jpeg;
 pub(crate) mod load;
 pub(crate) mod loops;
 pub(crate) mod mat;

@@ -20,7 +20,7 @@ use super::numbers::{Coding, Meaning, Numbers, RowSource};
 use super::picture::{Picture, size_of};
 use super::png::curve::Curve;
 use super::source::{Input, Source};
-use super::{profile, webp};
+use super::{jpeg, profile, webp};
 use crate::base::failure::{lower, reason};
 use crate::base::memory;
 use crate::base::size::LONGEST_SIDE;
@@ -90,7 +90,10 @@ impl Other {
         }
         let srgb = Curve::Srgb;
         guarded(|| match self {
-            Self::Jpeg => self.read(Box::new(JpegDecoder::new(file).map_err(words)?), srgb, None),
+            Self::Jpeg => {
+                jpeg::check(&mut open()?)?;
+                self.read(Box::new(JpegDecoder::new(file).map_err(words)?), srgb, None)
+            }
             Self::Gif => {
                 let warning = is_animated_gif(open()?).then_some(ONE_FRAME);
                 self.read(
@@ -100,6 +103,7 @@ impl Other {
                 )
             }
             Self::Webp => {
+                webp::chunks::check_length(&mut open()?, end)?;
                 let decoder = WebPDecoder::new(file).map_err(words)?;
                 webp::frame::check(&mut open()?, decoder.dimensions())?;
                 let warning = decoder.has_animation().then_some(ONE_FRAME);

@@ -1,3 +1,4 @@
+use std::io::Cursor;
 use std::path::Path;
 
 use image::codecs::gif::GifEncoder;
@@ -169,8 +170,7 @@ fn truncated_files_are_refused() {
     for format in ALL {
         let bytes = written(format);
         let enough = match format {
-            // Its decoder replaces missing data, except at the start.
-            Other::Jpeg => bytes.len() / 2,
+            Other::Jpeg => bytes.len(),
             Other::Gif => bytes.len() - 24,
             Other::Qoi => bytes.len() - 8,
             Other::Tga => bytes.len() - 26,
@@ -181,6 +181,45 @@ fn truncated_files_are_refused() {
             assert!(read.is_err(), "{format:?}: {length} of {}", bytes.len());
         }
     }
+}
+
+/// A JPEG as above, whose coded pixels contain restarts and stuffed bytes, and whose metadata contains a preview.
+#[test]
+fn jpegs_end_with_their_own_end() {
+    let bytes = written(Other::Jpeg);
+    let (start, rest) = bytes.split_at(2);
+    let preview = [&b"\xff\xe1\0\x0a"[..], b"\xff\xd8\xff\xd9\xff\xff\xd9\0"].concat();
+    let mut whole = [start, &preview, rest].concat();
+    assert!(decode(Other::Jpeg, &whole).is_ok());
+    assert_eq!(
+        decode(Other::Jpeg, &whole[..whole.len() - 2])
+            .err()
+            .unwrap(),
+        "not a usable JPEG: it ends early: expected the marker of its end (FF D9), found none"
+    );
+    whole.extend(b"the serial number of a camera");
+    assert!(decode(Other::Jpeg, &whole).is_ok());
+    let coded = b"\xff\xd8\xff\xda\0\x02\x12\xff\0\xff\xd3\x34\xff\xff\xd9";
+    for length in 0..coded.len() {
+        assert!(jpeg::check(&mut Cursor::new(&coded[..length])).is_err());
+    }
+    assert_eq!(jpeg::check(&mut Cursor::new(coded)), Ok(()));
+}
+
+#[test]
+fn a_webp_has_the_length_that_it_states() {
+    let mut bytes = written(Other::Webp);
+    bytes.extend(b"more");
+    assert!(decode(Other::Webp, &bytes).is_ok());
+    let length = bytes.len() as u32;
+    bytes[4..8].copy_from_slice(&length.to_le_bytes());
+    assert_eq!(
+        decode(Other::Webp, &bytes).err().unwrap(),
+        format!(
+            "not a usable WebP: it ends early: expected {} bytes, found {length}",
+            length + 8
+        )
+    );
 }
 
 /// Files of a few bytes that claim the largest number of pixels of their format.

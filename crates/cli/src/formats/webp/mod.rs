@@ -1,7 +1,7 @@
 //! WebP.
 
 mod animation;
-mod chunks;
+pub(super) mod chunks;
 pub(super) mod frame;
 
 pub(super) use self::animation::{Animation, MOST_FRAMES_PER_SECOND};
