@@ -52,7 +52,7 @@ impl Numbers {
         kind: &str,
         size: Size,
         meaning: Meaning,
-        warning: Option<&'static str>,
+        warnings: Vec<&'static str>,
         rows: Box<dyn RowSource>,
     ) -> Picture {
         let names = match (meaning.colors, meaning.alpha) {
@@ -76,7 +76,7 @@ impl Numbers {
             alpha: meaning.alpha,
             format: name,
             description: format!("{name}, {kind}, {names}"),
-            warning,
+            warnings,
             row: Box::new(Self {
                 meaning,
                 rows,

@@ -12,12 +12,11 @@ use image::codecs::pnm::PnmDecoder;
 use image::codecs::qoi::QoiDecoder;
 use image::codecs::tga::TgaDecoder;
 use image::codecs::webp::WebPDecoder;
-use image::metadata::Orientation;
 use image::{ColorType, ImageDecoder, ImageError, Limits};
 
 use super::guard::guarded;
 use super::numbers::{Coding, Meaning, Numbers, RowSource};
-use super::picture::{Picture, size_of};
+use super::picture::{NOT_TURNED, ONE_FRAME, ONE_PICTURE, Picture, is_turned, size_of};
 use super::png::curve::Curve;
 use super::source::{Input, Source};
 use super::{jpeg, profile, webp};
@@ -43,14 +42,9 @@ const MOST_BYTES: u64 = 1 << 27;
 /// The largest number of bytes of a file. Some decoders read files as a whole.
 const MOST_FILE_BYTES: u64 = 1 << 26;
 
-/// A warning about the interpretation of a file.
-type Warning = Option<&'static str>;
-
-const ONE_FRAME: &str = "it is an animation: only its first frame is read";
 // Pillow marks all QOI files as linear.
 const SAID_TO_BE_LINEAR: &str =
     "it says that its codes are linear, but some programs say this of sRGB codes";
-const NOT_TURNED: &str = "it asks to be rotated, but is read as it is stored";
 
 impl Other {
     /// The name of the format.
@@ -112,7 +106,14 @@ impl Other {
             Self::Radiance => {
                 self.read(Box::new(HdrDecoder::new(file).map_err(words)?), srgb, None)
             }
-            Self::Pnm => self.read(Box::new(PnmDecoder::new(file).map_err(words)?), srgb, None),
+            Self::Pnm => {
+                let decoder = PnmDecoder::new(&mut file).map_err(words)?;
+                let mut picture = self.read(Box::new(decoder), srgb, None)?;
+                if begins_pnm(&mut file) {
+                    picture.warnings.push(ONE_PICTURE);
+                }
+                Ok(picture)
+            }
             Self::Tga => self.read(Box::new(TgaDecoder::new(file).map_err(words)?), srgb, None),
             Self::Bmp => self.read(Box::new(BmpDecoder::new(file).map_err(words)?), srgb, None),
             Self::Qoi => {
@@ -130,9 +131,9 @@ impl Other {
     /// Decodes a picture whose codes have this curve, unless the file contains a linear profile.
     fn read(
         self,
-        mut decoder: Box<dyn ImageDecoder>,
+        mut decoder: Box<dyn ImageDecoder + '_>,
         mut curve: Curve,
-        mut warning: Warning,
+        warning: Option<&'static str>,
     ) -> Result<Picture, String> {
         let (width, height) = decoder.dimensions();
         let size = size_of(width as usize, height as usize)?;
@@ -153,18 +154,16 @@ impl Other {
         limits.max_image_height = Some(LONGEST_SIDE);
         limits.max_alloc = Some(MOST_BYTES);
         decoder.set_limits(limits).map_err(words)?;
+        let mut warnings = Vec::from_iter(warning);
         if let Ok(Some(profile)) = decoder.icc_profile() {
             if profile::is_linear(&profile) {
                 curve = Curve::Linear;
             } else {
-                warning = warning.or(Some(Curve::IGNORED_PROFILE));
+                warnings.push(Curve::IGNORED_PROFILE);
             }
         }
-        let is_turned = decoder
-            .orientation()
-            .is_ok_and(|it| it != Orientation::NoTransforms);
-        if is_turned {
-            warning = warning.or(Some(NOT_TURNED));
+        if decoder.orientation().is_ok_and(is_turned) {
+            warnings.push(NOT_TURNED);
         }
         let color_type = decoder.color_type();
         let mut samples = memory::reserve(bytes as usize)?;
@@ -202,7 +201,7 @@ impl Other {
             &kind,
             size,
             meaning,
-            warning,
+            warnings,
             Box::new(rows),
         ))
     }
@@ -282,6 +281,16 @@ fn is_animated_gif(file: Box<dyn Input>) -> bool {
     options.read_info(file).is_ok_and(|mut frames| {
         (0..2).all(|_| frames.next_frame_info().is_ok_and(|frame| frame.is_some()))
     })
+}
+
+/// Returns whether the rest of a PNM is one more picture.
+fn begins_pnm(rest: &mut Box<dyn Input>) -> bool {
+    let bytes = rest.bytes().map_while(Result::ok);
+    let mut bytes = bytes.skip_while(u8::is_ascii_whitespace);
+    bytes.next() == Some(b'P')
+        && bytes
+            .next()
+            .is_some_and(|kind| (b'1'..=b'7').contains(&kind))
 }
 
 /// The curve that the header of a QOI names.

@@ -7,10 +7,17 @@ use std::any::Any;
 use std::ops::Range;
 use std::path::Path;
 
+use image::metadata::Orientation;
+
 use crate::base::failure::lower;
 use crate::base::shown::Shown;
 use crate::base::size::{LONGEST_SIDE, Size};
 use crate::terminal::console::Console;
+
+/// The warnings about files of which only a part is read, or which are shown differently.
+pub(super) const ONE_FRAME: &str = "it is an animation: only its first frame is read";
+pub(super) const ONE_PICTURE: &str = "it contains several pictures: only the first one is read";
+pub(super) const NOT_TURNED: &str = "it asks to be rotated, but is read as it is stored";
 
 /// A picture that is being read: linear light, premultiplied by alpha.
 ///
@@ -24,8 +31,8 @@ pub(crate) struct Picture {
     pub(crate) format: &'static str,
     /// The description of the file for people: `PNG, 8 bit sRGB, gray`.
     pub(crate) description: String,
-    /// A warning about contents that were ignored.
-    pub(crate) warning: Option<&'static str>,
+    /// Warnings about contents that were ignored.
+    pub(crate) warnings: Vec<&'static str>,
     pub(crate) row: Box<dyn Samples>,
 }
 
@@ -68,9 +75,9 @@ pub(crate) trait Samples: Any {
 }
 
 impl Picture {
-    /// Prints the warning about the file at `path`, if there is one.
+    /// Prints the warnings about the file at `path`.
     pub(crate) fn warn(&self, path: &Path, console: &Console) {
-        if let Some(warning) = self.warning {
+        for warning in &self.warnings {
             console.warn(&format!("{}: {warning}", path.shown()));
         }
     }
@@ -85,6 +92,11 @@ impl Picture {
 /// The message about an unusable file, with the reason.
 pub(super) fn unusable(format: &str, reason: &str) -> String {
     format!("not a usable {format}: {}", lower(reason))
+}
+
+/// Returns whether viewers turn or mirror pictures of this orientation.
+pub(super) fn is_turned(orientation: Orientation) -> bool {
+    orientation != Orientation::NoTransforms
 }
 
 /// The size of a picture, if it is allowed.
@@ -104,6 +116,12 @@ pub(super) fn size_of(width: usize, height: usize) -> Result<Size, String> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+
+    /// Exif data that contain nothing but an orientation.
+    pub(crate) fn exif_of_orientation(number: u8) -> Vec<u8> {
+        let start = b"II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0";
+        [&start[..], &[number, 0, 0, 0, 0, 0, 0, 0]].concat()
+    }
 
     /// The whole picture, for tests that need pixels in any order.
     pub(crate) struct Whole {

@@ -69,7 +69,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
         alpha: numbers.alpha.is_some(),
         format: NAME,
         description,
-        warning: None,
+        warnings: Vec::new(),
         row: Box::new(numbers),
     })
 }

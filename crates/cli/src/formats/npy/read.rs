@@ -50,7 +50,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
         alpha: names.ends_with('A'),
         format: NAME,
         description: format!("NPY, {kind}, {names}"),
-        warning: None,
+        warnings: Vec::new(),
         row: Box::new(Numbers {
             array,
             file,

@@ -13,6 +13,7 @@ use image::{
 
 use super::*;
 use crate::formats::load;
+use crate::formats::picture::tests::exif_of_orientation;
 use marbles_core::srgb;
 
 const SIZE: (u32, u32) = (5, 3);
@@ -86,7 +87,7 @@ fn pictures_of_other_programs_are_read() {
         let picture = decode(format, &written(format)).unwrap();
         assert_eq!(picture.format, format.name());
         assert_eq!((picture.size.width, picture.size.height), SIZE);
-        assert_eq!(picture.warning, None);
+        assert_eq!(picture.warnings, [""; 0]);
         let picture = picture.whole().unwrap();
         let found = picture.rgba.concat();
         let rounding = picture.rounding.concat();
@@ -160,8 +161,51 @@ fn of_animations_the_first_frame_is_read() {
     encoder.encode_frames([frame(255), frame(0)]).unwrap();
     drop(encoder);
     let picture = load::decode_named(&bytes, "a.gif").unwrap();
-    assert_eq!(picture.warning, Some(ONE_FRAME));
+    assert_eq!(picture.warnings, [ONE_FRAME]);
     assert_eq!(picture.whole().unwrap().rgba[0][0], [1.0, 0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn no_warning_hides_another() {
+    let exif = exif_of_orientation(6);
+    let (codes, profile) = ([1, 2, 3], vec![0; 200]);
+    let mut jpeg = Vec::new();
+    let mut encoder = JpegEncoder::new(&mut jpeg);
+    encoder.set_icc_profile(profile.clone()).unwrap();
+    encoder.set_exif_metadata(exif.clone()).unwrap();
+    encoder
+        .write_image(&codes, 1, 1, ExtendedColorType::Rgb8)
+        .unwrap();
+    let mut webp = Vec::new();
+    let mut encoder = WebPEncoder::new_lossless(&mut webp);
+    encoder.set_icc_profile(profile).unwrap();
+    encoder.set_exif_metadata(exif).unwrap();
+    encoder
+        .write_image(&codes, 1, 1, ExtendedColorType::Rgb8)
+        .unwrap();
+    for (format, bytes) in [(Other::Jpeg, jpeg), (Other::Webp, webp)] {
+        let warnings = decode(format, &bytes).unwrap().warnings;
+        assert_eq!(warnings, [Curve::IGNORED_PROFILE, NOT_TURNED], "{format:?}");
+    }
+}
+
+#[test]
+fn of_several_pnm_pictures_the_first_is_read() {
+    for (file, is_one) in [
+        (&b"P5 1 1 255\n\xff"[..], true),
+        (b"P5 1 1 255\n\xff\nP is a letter", true),
+        (b"P5 1 1 255\n\xffP5 1 1 255\n\0", false),
+        (
+            b"P6 1 1 65535\n\xff\xff\xff\xff\xff\xffP5 1 1 255\n\0",
+            false,
+        ),
+        (b"P2 1 1 255\n255\n\nP2 1 1 255\n0\n", false),
+    ] {
+        let picture = decode(Other::Pnm, file).unwrap();
+        let expected: &[&str] = if is_one { &[] } else { &[ONE_PICTURE] };
+        assert_eq!(picture.warnings, expected, "{}", file.escape_ascii());
+        assert_eq!(picture.whole().unwrap().rgba[0][0], [1.0; 4]);
+    }
 }
 
 /// The part of a file that a decoder needs. Only an end mark and metadata may follow the pixels.

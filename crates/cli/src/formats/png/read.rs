@@ -3,11 +3,12 @@
 use std::any::Any;
 use std::ops::Range;
 
+use image::metadata::Orientation;
 use png::{BitDepth, ColorType};
 
 use super::curve::Curve;
 use super::lines::{Lines, has_alpha, open};
-use crate::formats::picture::{Picture, Samples, size_of};
+use crate::formats::picture::{NOT_TURNED, ONE_FRAME, Picture, Samples, is_turned, size_of};
 use crate::formats::source::Source;
 
 /// The name of the format.
@@ -37,6 +38,17 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
     let info = reader.info();
     let size = size_of(info.width as usize, info.height as usize)?;
     let (curve, warning) = Curve::of(info)?;
+    let mut warnings = Vec::from_iter(warning);
+    if info.animation_control.is_some_and(|it| it.num_frames > 1) {
+        warnings.push(ONE_FRAME);
+    }
+    let exif = info.exif_metadata.as_deref();
+    if exif
+        .and_then(Orientation::from_exif_chunk)
+        .is_some_and(is_turned)
+    {
+        warnings.push(NOT_TURNED);
+    }
     // The entries of a palette have 8 bit, however short their numbers are.
     let bits = match info.color_type {
         ColorType::Indexed => 8,
@@ -58,7 +70,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
         alpha,
         format: NAME,
         description,
-        warning,
+        warnings,
         row: Box::new(Codes {
             lines: Lines::begin(reader, source)?,
             color_type,

@@ -2,6 +2,7 @@
 
 use std::io::SeekFrom;
 
+use image::metadata::Orientation;
 use tiff::ColorType;
 use tiff::decoder::{ChunkType, Decoder, Limits};
 use tiff::tags::{CompressionMethod, ExtraSamples, PlanarConfiguration, SampleFormat, Tag};
@@ -10,7 +11,7 @@ use super::directory;
 use crate::base::failure::lower;
 use crate::base::size::Size;
 use crate::formats::guard::guarded;
-use crate::formats::picture::size_of;
+use crate::formats::picture::{is_turned, size_of};
 use crate::formats::source::Input;
 
 /// The largest number of bytes of the samples that are decoded together: a strip, or a row of tiles.
@@ -27,6 +28,8 @@ pub(super) struct Opened {
     pub(super) samples: usize,
     pub(super) bits: u8,
     pub(super) float: bool,
+    /// Whether viewers turn or mirror the picture.
+    pub(super) is_turned: bool,
     /// The number of chunks side by side, and the size of a complete chunk.
     pub(super) across: u32,
     pub(super) chunk: (u32, u32),
@@ -96,6 +99,9 @@ fn examine(
             "its channels are stored in separate planes, expected pixel by pixel".to_owned(),
         );
     }
+    let orientation = number(&mut decoder, Tag::Orientation, 1).ok();
+    let orientation =
+        orientation.and_then(|number| Orientation::from_exif(number.try_into().ok()?));
     let extra: Option<Vec<u16>> = decoder
         .find_tag_unsigned_vec(Tag::ExtraSamples)
         .map_err(words)?;
@@ -171,6 +177,7 @@ fn examine(
         samples,
         bits,
         float,
+        is_turned: orientation.is_some_and(is_turned),
         across,
         chunk,
         directory_end,

@@ -8,7 +8,7 @@ use super::decoder::{Alpha, Opened, open};
 use crate::base::failure::{lower, reason};
 use crate::formats::guard::guarded;
 use crate::formats::numbers::{Coding, Meaning, Numbers, RowSource};
-use crate::formats::picture::Picture;
+use crate::formats::picture::{NOT_TURNED, ONE_PICTURE, Picture};
 use crate::formats::png::curve::Curve;
 use crate::formats::profile;
 use crate::formats::source::Source;
@@ -32,8 +32,9 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
     let profile = profile.ok().flatten();
     let profile = profile.and_then(|profile| profile.into_u8_vec().ok());
     let is_linear = profile.as_deref().is_some_and(profile::is_linear);
-    let (coding, warning) = if file.float {
-        (Coding::Floats { bits: file.bits }, None)
+    let mut warnings = Vec::new();
+    let coding = if file.float {
+        Coding::Floats { bits: file.bits }
     } else {
         let (curve, warning) = match &profile {
             _ if is_linear => (Curve::Linear, None),
@@ -41,9 +42,16 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
             None if file.bits > 8 => (Curve::Srgb, Some(SRGB_ASSUMED)),
             None => (Curve::Srgb, None),
         };
+        warnings.extend(warning);
         let most = f64::from(u32::MAX >> (32 - file.bits));
-        (Coding::Codes { curve, most }, warning)
+        Coding::Codes { curve, most }
     };
+    if file.decoder.more_images() {
+        warnings.push(ONE_PICTURE);
+    }
+    if file.is_turned {
+        warnings.push(NOT_TURNED);
+    }
     let meaning = Meaning {
         colors: file.colors,
         alpha: file.alpha != Alpha::None,
@@ -65,7 +73,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
         &kind,
         size,
         meaning,
-        warning,
+        warnings,
         Box::new(rows),
     ))
 }

@@ -3,7 +3,7 @@ use png::Encoder;
 use super::*;
 use crate::base::size::Size;
 use crate::formats::encoding::PngOptions;
-use crate::formats::picture::tests::Whole;
+use crate::formats::picture::tests::{Whole, exif_of_orientation};
 use crate::formats::tests::{Scene, png_bytes, render, size};
 use marbles_core::srgb;
 
@@ -113,6 +113,31 @@ fn the_curve_is_what_the_file_says() {
     assert!((of(50_000) - 0.04).abs() < 1e-15);
     assert_eq!(of(45_455), srgb::decode(0.2));
     assert_eq!(of(0), srgb::decode(0.2));
+}
+
+#[test]
+fn animations_and_requests_to_turn_are_warnings() {
+    let warnings = |frames: u32, orientation: Option<u8>| {
+        let mut info = png::Info::with_size(1, 1);
+        info.exif_metadata = orientation.map(|it| exif_of_orientation(it).into());
+        let mut file = Vec::new();
+        let mut encoder = Encoder::with_info(&mut file, info).unwrap();
+        if frames > 0 {
+            encoder.set_animated(frames, 0).unwrap();
+        }
+        let mut writer = encoder.write_header().unwrap();
+        for _ in 0..frames.max(1) {
+            writer.write_image_data(&[7]).unwrap();
+        }
+        writer.finish().unwrap();
+        decode(&file).unwrap().warnings
+    };
+    for (frames, orientation) in [(0, None), (1, None), (0, Some(1))] {
+        assert_eq!(warnings(frames, orientation), [""; 0]);
+    }
+    assert_eq!(warnings(2, None), [ONE_FRAME]);
+    assert_eq!(warnings(0, Some(3)), [NOT_TURNED]);
+    assert_eq!(warnings(2, Some(8)), [ONE_FRAME, NOT_TURNED]);
 }
 
 /// An interlaced PNG whose zlib stream, without compression, holds these bytes.

@@ -54,7 +54,7 @@ fn what_render_writes_comes_back() {
                 "16 bit linear"
             };
             assert!(picture.description.starts_with(&format!("TIFF, {kind}, ")));
-            assert_eq!(picture.warning, None);
+            assert_eq!(picture.warnings, [""; 0]);
             assert_eq!(picture.alpha, alpha);
             let picture = picture.whole().unwrap();
             for (col, row) in size(&image).places() {
@@ -103,8 +103,8 @@ fn numbers_of_others_become_light() {
     let bytes = written::<colortype::Gray16>(3, &codes, Compression::Lzw, Predictor::Horizontal);
     let greys = codes.map(|code| light(code.into(), 65535.0));
     assert_eq!(row(&bytes), greys.map(|grey| [grey, grey, grey, 1.0]));
-    let warning = decode(&bytes).unwrap().warning;
-    assert_eq!(warning, Some(SRGB_ASSUMED));
+    let warnings = decode(&bytes).unwrap().warnings;
+    assert_eq!(warnings, [SRGB_ASSUMED]);
     let values = [0.25, -1.0, 7e9, f32::NAN, 0.0, f32::MAX];
     let bytes =
         written::<colortype::RGB32Float>(2, &values, Compression::Uncompressed, Predictor::None);
@@ -186,6 +186,27 @@ fn codes_that_were_multiplied_by_alpha_are_divided_by_it() {
     let light = 0.4 * srgb::decode(0.5);
     let [grey, _, _, alpha] = row(&bytes)[0];
     assert!((grey - light).abs() < 1e-12 && (alpha - 0.4).abs() < 1e-12);
+}
+
+#[test]
+fn more_pictures_and_requests_to_turn_are_warnings() {
+    let warnings = |pictures: usize, orientation: u16| {
+        let mut file = Cursor::new(Vec::new());
+        let mut encoder = TiffEncoder::new(&mut file).unwrap();
+        for _ in 0..pictures {
+            let mut image = encoder.new_image::<colortype::Gray8>(1, 1).unwrap();
+            let directory = image.encoder();
+            directory.write_tag(Tag::Orientation, orientation).unwrap();
+            image.write_data(&[7]).unwrap();
+        }
+        decode(&file.into_inner()).unwrap().warnings
+    };
+    for orientation in [0, 1, 9] {
+        assert_eq!(warnings(1, orientation), [""; 0]);
+    }
+    assert_eq!(warnings(2, 1), [ONE_PICTURE]);
+    assert_eq!(warnings(1, 6), [NOT_TURNED]);
+    assert_eq!(warnings(3, 2), [ONE_PICTURE, NOT_TURNED]);
 }
 
 #[test]
