@@ -5,7 +5,9 @@ use std::io::SeekFrom;
 use image::metadata::Orientation;
 use tiff::ColorType;
 use tiff::decoder::{ChunkType, Decoder, Limits};
-use tiff::tags::{CompressionMethod, ExtraSamples, PlanarConfiguration, SampleFormat, Tag};
+use tiff::tags::{
+    CompressionMethod, ExtraSamples, PlanarConfiguration, Predictor, SampleFormat, Tag,
+};
 
 use super::directory;
 use crate::base::failure::lower;
@@ -14,6 +16,8 @@ use crate::formats::guard::guarded;
 use crate::formats::picture::{is_turned, size_of};
 use crate::formats::source::Input;
 
+/// The usual order of bits.
+const HIGH_BITS_FIRST: u16 = 1;
 /// The largest number of bytes of the samples that are decoded together: a strip, or a row of tiles.
 const MOST_BYTES: u64 = 1 << 26;
 
@@ -26,6 +30,8 @@ pub(super) struct Opened {
     pub(super) alpha: Alpha,
     /// The number of samples per pixel. Some may have an unknown meaning.
     pub(super) samples: usize,
+    /// The number of those that the decoder returns.
+    pub(super) decoded: usize,
     pub(super) bits: u8,
     pub(super) float: bool,
     /// Whether viewers turn or mirror the picture.
@@ -92,6 +98,25 @@ fn examine(
             "its compression is {compression:?}, expected none, LZW, Deflate or PackBits"
         ));
     }
+    let predictor = number(&mut decoder, Tag::Predictor, Predictor::None.to_u16())?;
+    let is_predicted = predictor != Predictor::None.to_u16();
+    // Some programs ignore the predictor of such files, and others do not.
+    if is_predicted
+        && matches!(
+            compression,
+            CompressionMethod::None | CompressionMethod::PackBits
+        )
+    {
+        return Err(format!(
+            "it has the predictor {predictor} with the compression {compression:?}, expected LZW or Deflate"
+        ));
+    }
+    let bit_order = number(&mut decoder, Tag::FillOrder, HIGH_BITS_FIRST)?;
+    if bit_order != HIGH_BITS_FIRST {
+        return Err(format!(
+            "its bits are stored in the order {bit_order} (FillOrder), expected {HIGH_BITS_FIRST}"
+        ));
+    }
     let planes = number(&mut decoder, Tag::PlanarConfiguration, 1)?;
     let samples = usize::from(number(&mut decoder, Tag::SamplesPerPixel, 1)?);
     if planes != PlanarConfiguration::Chunky.to_u16() && samples > 1 {
@@ -114,6 +139,27 @@ fn examine(
         ColorType::RGB(_) | ColorType::RGBA(_) => 3,
         other => return Err(format!("its colors are {other:?}, expected gray or RGB")),
     };
+    // Of colors, the decoder returns only those samples of a pixel whose meaning it knows.
+    let decoded = usize::from(color_type.num_samples());
+    if decoded != samples && is_predicted {
+        return Err(format!(
+            "it has the predictor {predictor} and {samples} channels, but marbles knows the meaning of only {decoded}"
+        ));
+    }
+    let is_alpha = |kind: &u16| {
+        use ExtraSamples::{AssociatedAlpha, UnassociatedAlpha};
+        let kind = ExtraSamples::from_u16(*kind);
+        matches!(kind, Some(AssociatedAlpha | UnassociatedAlpha))
+    };
+    if extra
+        .iter()
+        .position(is_alpha)
+        .is_some_and(|place| place > 0)
+    {
+        return Err(
+            "its alpha follows another channel, expected alpha right after the colors".to_owned(),
+        );
+    }
     let alpha = match extra.first().copied().and_then(ExtraSamples::from_u16) {
         Some(ExtraSamples::AssociatedAlpha) => Alpha::Associated,
         Some(ExtraSamples::UnassociatedAlpha) => Alpha::Unassociated,
@@ -175,6 +221,7 @@ fn examine(
         colors,
         alpha,
         samples,
+        decoded,
         bits,
         float,
         is_turned: orientation.is_some_and(is_turned),

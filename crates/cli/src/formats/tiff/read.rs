@@ -88,7 +88,7 @@ impl RowSource for Chunks {
             size,
             colors,
             alpha,
-            samples,
+            decoded,
             across,
             chunk,
             ..
@@ -107,9 +107,9 @@ impl RowSource for Chunks {
         row.clear();
         for (numbers, index) in self.chunks.iter().zip(0..) {
             let columns = chunk.0.min(size.width - index * chunk.0) as usize;
-            let start = within as usize * columns * *samples;
+            let start = within as usize * columns * *decoded;
             let places = (0..columns).flat_map(|col| {
-                let first = start + col * *samples;
+                let first = start + col * *decoded;
                 first..first + used
             });
             add(row, numbers, places)?;

@@ -2,7 +2,7 @@ use std::io::Cursor;
 
 use tiff::encoder::compression::{CompressionAlgorithm, Lzw};
 use tiff::encoder::{Compression, DeflateLevel, Predictor, Rational, TiffEncoder, colortype};
-use tiff::tags::CompressionMethod;
+use tiff::tags::{CompressionMethod, ExtraSamples};
 
 use super::*;
 use crate::formats::picture::tests::Whole;
@@ -207,6 +207,82 @@ fn more_pictures_and_requests_to_turn_are_warnings() {
     assert_eq!(warnings(2, 1), [ONE_PICTURE]);
     assert_eq!(warnings(1, 6), [NOT_TURNED]);
     assert_eq!(warnings(3, 2), [ONE_PICTURE, NOT_TURNED]);
+}
+
+/// A file with one row of three pixels that have more channels than RGB.
+fn extended(extra: &[u16], compression: Compression, predictor: Predictor) -> Vec<u8> {
+    let mut file = Cursor::new(Vec::new());
+    let encoder = TiffEncoder::new(&mut file).unwrap();
+    let mut encoder = encoder
+        .with_compression(compression)
+        .with_predictor(predictor);
+    let channels = 3 + extra.len();
+    let mut image = encoder.new_image::<colortype::RGB8>(3, 1).unwrap();
+    image.extra_samples(&extra_samples(extra)).unwrap();
+    let samples: Vec<u8> = (0..3 * channels as u8).map(|it| 7 * it).collect();
+    image.write_data(&samples).unwrap();
+    file.into_inner()
+}
+
+/// The kinds of channels with these numbers.
+fn extra_samples(numbers: &[u16]) -> Vec<ExtraSamples> {
+    let kinds = numbers.iter().copied().map(ExtraSamples::from_u16);
+    kinds.collect::<Option<_>>().unwrap()
+}
+
+#[test]
+fn channels_without_a_meaning_are_left_out() {
+    let plain = |extra: &[u16]| extended(extra, Compression::Uncompressed, Predictor::None);
+    for (extra, has_alpha) in [
+        (&[0][..], false),
+        (&[0, 0], false),
+        (&[2], true),
+        (&[2, 0], true),
+    ] {
+        let channels = 3 + extra.len();
+        for (col, found) in row(&plain(extra)).into_iter().enumerate() {
+            let code = |channel: usize| (7 * (col * channels + channel)) as f64 / 255.0;
+            let alpha = if has_alpha { code(3) } else { 1.0 };
+            let [red, green, blue] = [0, 1, 2].map(|channel| srgb::decode(code(channel)) * alpha);
+            assert_eq!(found, [red, green, blue, alpha], "{extra:?}, {col}");
+        }
+    }
+    assert_eq!(
+        decode(&plain(&[0, 2])).err().unwrap(),
+        "its alpha follows another channel, expected alpha right after the colors"
+    );
+    let bytes = extended(&[0], Compression::Lzw, Predictor::Horizontal);
+    assert_eq!(
+        decode(&bytes).err().unwrap(),
+        "it has the predictor 2 and 4 channels, but marbles knows the meaning of only 3"
+    );
+}
+
+#[test]
+fn what_programs_read_differently_is_refused() {
+    for (compression, name) in [
+        (Compression::Uncompressed, "None"),
+        (Compression::Packbits, "PackBits"),
+    ] {
+        let bytes = written::<colortype::Gray8>(2, &[1, 2], compression, Predictor::Horizontal);
+        assert_eq!(
+            decode(&bytes).err().unwrap(),
+            format!("it has the predictor 2 with the compression {name}, expected LZW or Deflate")
+        );
+    }
+    let ordered = |order: u16| {
+        let mut file = Cursor::new(Vec::new());
+        let mut encoder = TiffEncoder::new(&mut file).unwrap();
+        let mut image = encoder.new_image::<colortype::Gray8>(1, 1).unwrap();
+        image.encoder().write_tag(Tag::FillOrder, order).unwrap();
+        image.write_data(&[1]).unwrap();
+        file.into_inner()
+    };
+    assert!(decode(&ordered(1)).is_ok());
+    assert_eq!(
+        decode(&ordered(2)).err().unwrap(),
+        "its bits are stored in the order 2 (FillOrder), expected 1"
+    );
 }
 
 #[test]
