@@ -6,7 +6,7 @@ use std::path::Path;
 
 use blake3::Hash;
 
-use super::others::Other;
+use super::others::{MOST_FILE_BYTES, Other};
 use super::picture::{Picture, unusable};
 use super::source::Source;
 use super::{exr, npy, png, tiff};
@@ -73,8 +73,8 @@ pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
     if path.is_dir() {
         return Err(refused("expected a picture, found a folder"));
     }
-    let is_picture = |start: &[u8]| format_of(start, path).is_some();
-    let source = Source::of(path, START_BYTES, is_picture);
+    let most = |start: &[u8]| format_of(start, path).map(Readable::most_piped_bytes);
+    let source = Source::of(path, START_BYTES, most);
     let (source, start) = source.map_err(|error| match error.kind() {
         ErrorKind::NotFound => refused("no such file"),
         ErrorKind::PermissionDenied => refused("no permission to read this file"),
@@ -112,6 +112,14 @@ impl Readable {
             Self::Npy => npy::read::NAME,
             Self::Tiff => tiff::read::NAME,
             Self::Other(other) => other.name(),
+        }
+    }
+
+    /// The largest number of bytes that are read from a pipe, all of which have to be in memory.
+    fn most_piped_bytes(self) -> u64 {
+        match self {
+            Self::Other(_) => MOST_FILE_BYTES,
+            _ => 1 << 30,
         }
     }
 }

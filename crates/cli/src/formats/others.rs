@@ -40,7 +40,7 @@ pub(super) enum Other {
 /// The largest number of bytes that the samples of a picture may take, and that its decoder may allocate.
 const MOST_BYTES: u64 = 1 << 27;
 /// The largest number of bytes of a file. Some decoders read files as a whole.
-const MOST_FILE_BYTES: u64 = 1 << 26;
+pub(super) const MOST_FILE_BYTES: u64 = 1 << 26;
 
 // Pillow marks all QOI files as linear.
 const SAID_TO_BE_LINEAR: &str =
