@@ -18,7 +18,7 @@ use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
 use crate::formats::encoding::{
     AnimationFormat, Encoding, ExrOptions, Format, NpyOptions, PngOptions, TiffOptions,
 };
-use crate::formats::loops::most_frames_per_second;
+use crate::formats::loops::why_other_rate;
 use crate::formats::npy::files::names_beside;
 use crate::formats::sidecar;
 use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
@@ -203,7 +203,7 @@ fn check_view(
     const FRAMES: usize = 1000;
     let scene = &request.scene;
     let frame = request.frames.first();
-    if let Some(warning) = too_fast(request) {
+    if let Some(warning) = other_rate(request) {
         scene::warn(&[warning], &request.scene_path, &arguments.options, console)?;
     }
     // Tables that cannot be read are told when their turn comes.
@@ -231,19 +231,16 @@ fn check_view(
     scene::warn(&warnings, &request.scene_path, &arguments.options, console)
 }
 
-/// The warning about an animation that is too fast for players.
-fn too_fast(request: &Request) -> Option<String> {
+/// The warning about an animation that is too fast for players, or too slow for its format.
+fn other_rate(request: &Request) -> Option<String> {
     let Encoding::Animation(format, _) = request.encoding else {
         return None;
     };
-    let (rate, most) = (request.frames_per_second?, most_frames_per_second(format)?);
-    (rate > most && request.frames.count() > 1).then(|| {
-        let path = request.pattern.path(request.frames.first());
-        format!(
-            "{}: players show at most {most:.0} frames per second, but this loop has {rate}",
-            path.shown()
-        )
-    })
+    let is_moving = request.frames.count() > 1;
+    let rate = request.frames_per_second.filter(|_| is_moving)?;
+    let path = request.pattern.path(request.frames.first());
+    let reason = why_other_rate(format, rate)?;
+    Some(format!("{}: {reason}", path.shown()))
 }
 
 /// The name of the scene at `path`.

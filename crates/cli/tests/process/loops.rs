@@ -247,6 +247,34 @@ fn more_frames_than_players_show_are_a_warning() {
 }
 
 #[test]
+fn frames_that_last_longer_than_the_format_allows_are_a_warning() {
+    let folder = folder();
+    for (arguments, expected) in [
+        (
+            "-o a.gif --fps 0.001",
+            "marbles: a.gif: its format shows a frame for at most 655.35 s, but this loop has 0.001 frames per second\n",
+        ),
+        (
+            "-o b.webp --fps 0.00005",
+            "marbles: b.webp: its format shows a frame for at most 16777.215 s, but this loop has 0.00005 frames per second\n",
+        ),
+        (
+            "-o c.apng --fps 0.00001",
+            "marbles: c.apng: its format shows a frame for at most 65535 s, but this loop has 0.00001 frames per second\n",
+        ),
+        ("-o d.gif --fps 0.0016", ""),
+        ("-o d.webp --fps 0.001", ""),
+        ("-o d.apng --fps 0.001", ""),
+        ("-o e.gif --fps 0.001 --frames 1", ""),
+    ] {
+        assert_eq!(
+            run(&folder, &format!("render turn.ron {arguments}")),
+            expected
+        );
+    }
+}
+
+#[test]
 fn pictures_larger_than_the_format_has_are_refused() {
     let folder = folder();
     for (arguments, expected) in [

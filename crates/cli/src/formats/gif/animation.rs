@@ -28,6 +28,8 @@ const HALF: u8 = 128;
 
 /// The rate at which all pictures have the shortest duration.
 pub(in crate::formats) const MOST_FRAMES_PER_SECOND: f64 = UNITS / SHORTEST as f64;
+/// The longest duration, in seconds.
+pub(in crate::formats) const MOST_SECONDS: f64 = u16::MAX as f64 / UNITS;
 
 /// The number of bytes that are read or written together.
 const BUFFER_BYTES: usize = 1 << 18;

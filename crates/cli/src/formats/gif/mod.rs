@@ -5,4 +5,4 @@ mod dither;
 mod histogram;
 mod palette;
 
-pub(super) use self::animation::{Animation, MOST_FRAMES_PER_SECOND};
+pub(super) use self::animation::{Animation, MOST_FRAMES_PER_SECOND, MOST_SECONDS};

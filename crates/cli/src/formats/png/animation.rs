@@ -15,6 +15,9 @@ use crate::base::memory;
 use crate::files::save::Fault;
 use crate::formats::{animation, frame_rate};
 
+/// The longest time in seconds for which a picture can be shown. The numerator and the denominator have 16 bits.
+pub(in crate::formats) const MOST_SECONDS: f64 = u16::MAX as f64;
+
 /// A file that is being written.
 pub(crate) struct Animation<W: Write> {
     writer: Writer<BufWriter<W>>,

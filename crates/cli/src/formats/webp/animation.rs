@@ -24,11 +24,15 @@ const SHORTEST: u32 = 11;
 
 /// The rate at which all pictures have the shortest duration.
 pub(in crate::formats) const MOST_FRAMES_PER_SECOND: f64 = UNITS / SHORTEST as f64;
+/// The longest duration, in seconds.
+pub(in crate::formats) const MOST_SECONDS: f64 = LONGEST as f64 / UNITS;
 
 /// The number of bytes that are written together.
 const BUFFER_BYTES: usize = 1 << 18;
 /// The bytes before the chunk of a still picture: `RIFF`, a length, `WEBP`.
 const START_BYTES: usize = 12;
+/// The largest length in the header of a file.
+const LARGEST_LENGTH: u32 = u32::MAX - 9;
 
 /// A file that is being written.
 pub(in crate::formats) struct Animation<W: Write> {
@@ -99,12 +103,21 @@ impl<W: Write + Seek> Animation<W> {
         self.add(&start)
     }
 
-    /// Writes some bytes.
+    /// Writes some bytes, unless the file would become too long.
     fn add(&mut self, bytes: &[u8]) -> Result<(), Fault> {
+        let all = self.bytes + bytes.len() as u64;
+        length(all)?;
         self.file.write_all(bytes)?;
-        self.bytes += bytes.len() as u64;
+        self.bytes = all;
         Ok(())
     }
+}
+
+/// The length in the header of a file with this number of bytes.
+fn length(bytes: u64) -> Result<u32, Fault> {
+    let length = u32::try_from(bytes.saturating_sub(HEADER_BYTES));
+    let length = length.ok().filter(|length| *length <= LARGEST_LENGTH);
+    length.ok_or_else(|| Fault::Encoding("a WebP has at most 4 GiB".to_owned()))
 }
 
 impl<W: Write + Seek> animation::Animation for Animation<W> {
@@ -145,12 +158,48 @@ impl<W: Write + Seek> animation::Animation for Animation<W> {
 
     fn finish(mut self: Box<Self>) -> Result<(), Fault> {
         if !self.is_still {
-            let length = u32::try_from(self.bytes - HEADER_BYTES);
-            let length =
-                length.map_err(|_| Fault::Encoding("a WebP has at most 4 GiB".to_owned()))?;
+            let length = length(self.bytes)?;
             self.file.seek(SeekFrom::Start(4))?;
             self.file.write_all(&length.to_le_bytes())?;
         }
         Ok(self.file.flush()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use marbles_core::Channels;
+
+    use super::animation::Animation as _;
+    use super::*;
+    use crate::base::region::Region;
+    use crate::formats::form::Form;
+    use crate::formats::tests::PNG;
+
+    #[test]
+    fn a_file_that_becomes_too_long_ends_with_the_frame_that_does_not_fit() {
+        let size = Size {
+            width: 2,
+            height: 1,
+        };
+        let form = Form {
+            region: Region::all(size),
+            channels: Channels::Grey,
+            alpha: false,
+            centers: None,
+        };
+        let shape = Shape::of(&form, PNG);
+        let samples = [0, 255];
+        let mut file = Animation::begin(Cursor::new(Vec::new()), shape, 9, 24.0).unwrap();
+        file.add_samples(&samples).unwrap();
+        file.end_frame().unwrap();
+        file.bytes = u64::from(LARGEST_LENGTH) + HEADER_BYTES;
+        file.add_samples(&samples).unwrap();
+        let Err(Fault::Encoding(reason)) = file.end_frame() else {
+            panic!("expected a refusal");
+        };
+        assert_eq!(reason, "a WebP has at most 4 GiB");
     }
 }
