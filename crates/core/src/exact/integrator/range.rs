@@ -1,5 +1,7 @@
 //! The range of light that a tile may show: the claims of pixels that are known by samples, or hardly known.
 
+use glam::DVec3;
+
 use super::{Exact, FEW_SAMPLES, SAMPLES};
 use crate::exact::budget::MOST_SPHERES;
 use crate::exact::crowd::CrowdWork;
@@ -10,7 +12,7 @@ use crate::picture::pixel::{Evidence, Pixel, Status};
 
 /// The spheres that a tile may see of which more have few samples: where these nearly coincide, each of them is held
 /// against all in more than doubles, and against all their shadows.
-pub(super) const MOST_OF_SAMPLES: usize = 256;
+const MOST_OF_SAMPLES: usize = 256;
 
 /// The units in which a ray is held against a sphere in more than doubles.
 pub(super) const OF_SPHERE: u64 = 8;
@@ -18,6 +20,9 @@ pub(super) const OF_SPHERE: u64 = 8;
 /// The largest distance of spheres, in radii, for rays to be decided without integers: the square of this is what
 /// numbers of twice the precision may lose and still have all places of a double.
 const FAR: f64 = (1_u64 << 25) as f64;
+
+/// The radius of immense spheres, in distances of their center.
+const IMMENSE: f64 = 1e40;
 
 impl Exact<'_> {
     /// A pixel by samples, whose error is how far any mixture of what its tile may show lies from them; in the middle
@@ -30,8 +35,7 @@ impl Exact<'_> {
         range: [Color; 2],
         (crowds, most_occluders): (&mut CrowdWork, usize),
     ) -> Pixel {
-        let is_far = |&sphere: &usize| self.is_far(sphere);
-        let is_few = candidates.len() > MOST_OF_SAMPLES || candidates.iter().any(is_far);
+        let is_few = self.are_costly(candidates);
         let rays = if is_few { FEW_SAMPLES } else { SAMPLES };
         let rays = u64::from(rays.get().pow(2));
         let count = candidates.len();
@@ -57,10 +61,16 @@ impl Exact<'_> {
         pixel
     }
 
-    /// Returns whether a sphere is so far that each ray that may meet it costs thousands of others.
-    pub(super) fn is_far(&self, sphere: usize) -> bool {
-        let (center, radius) = self.groups[0].scene.center(sphere);
-        center.length() > FAR * radius
+    /// Returns whether spheres are so many, or one of them so far or so large, that each ray costs thousands of others.
+    pub(super) fn are_costly(&self, spheres: &[usize]) -> bool {
+        spheres.len() > MOST_OF_SAMPLES
+            || spheres.iter().any(|&sphere| {
+                let (center, radius) = self.groups[0].scene.center(sphere);
+                let distance = center.length();
+                // Integers that hold both have thousands of digits.
+                let is_immense = center != DVec3::ZERO && distance < radius / IMMENSE;
+                distance > FAR * radius || is_immense
+            })
     }
 
     /// The largest distance of a pixel from any mixture of light in a range.

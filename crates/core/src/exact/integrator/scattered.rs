@@ -1,7 +1,7 @@
 //! Pixels that are over their tolerance, by as many random samples as it takes.
 
 use super::Exact;
-use super::range::{MOST_OF_SAMPLES, OF_SPHERE};
+use super::range::OF_SPHERE;
 use crate::exact::crowd::CrowdWork;
 use crate::model::color::Color;
 use crate::model::light::Light;
@@ -88,9 +88,8 @@ impl Exact<'_> {
         let of_spheres = OF_SPHERE * candidates.len() as u64;
         let most = most_strata(of_spheres + lights.iter().map(of_light).sum::<u64>());
         let may_meet = least_error(range, samples(most) as f64) < self.tolerance;
-        let is_few = candidates.len() <= MOST_OF_SAMPLES
-            && !candidates.iter().any(|&sphere| self.is_far(sphere));
-        (may_meet && !is_of_moment && is_few).then_some(Scattering {
+        let is_affordable = !is_of_moment && !self.are_costly(candidates);
+        (may_meet && is_affordable).then_some(Scattering {
             range,
             of_sample: of_spheres + most_occluders as u64,
             most,
