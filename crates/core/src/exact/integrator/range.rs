@@ -21,7 +21,7 @@ pub(super) const OF_SPHERE: u64 = 8;
 /// numbers of twice the precision may lose and still have all places of a double.
 const FAR: f64 = (1_u64 << 25) as f64;
 
-/// The radius of immense spheres, in distances of their center.
+/// The radius of immense spheres, in distances of their center. Not tuned: it is far beyond floors and skies.
 const IMMENSE: f64 = 1e40;
 
 impl Exact<'_> {

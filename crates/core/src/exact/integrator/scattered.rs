@@ -14,8 +14,8 @@ use crate::sampling::Pairs;
 const FIRST: u32 = 32;
 const MOST: u32 = 512;
 
-/// The tests that the most strata of a pixel may take, about 80 ms: enough for them over three spheres under a lamp, or
-/// under some suns. The looks before them take a third of it.
+/// The tests that the most strata of a pixel may take, tens of milliseconds: enough for them over three spheres under a
+/// lamp, or under some suns. The looks before them take a third of it; the first look is always taken.
 const MOST_TESTS: u64 = 1 << 25;
 
 /// The tests that a light takes, whose ray may meet anything.
