@@ -49,8 +49,9 @@ const STARTS: [(&[u8], Readable); 19] = [
 const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 /// The first bytes of every NPY.
 const NPY_MAGIC: &[u8] = b"\x93NUM";
-/// The largest number of bytes of a picture from a pipe, in a format that is read row by row from a file.
-const MOST_PIPED_BYTES: u64 = 1 << 30;
+/// The largest number of bytes of a picture from a pipe, in a format that is read row by row from a file. They are in
+/// memory before anything is known about them.
+const MOST_PIPED_BYTES: u64 = 1 << 27;
 /// The number of bytes from which the format is recognized.
 const START_BYTES: usize = 12;
 

@@ -80,7 +80,7 @@ fn read_rest(pipe: impl Read, bytes: &mut Vec<u8>, most: u64) -> io::Result<()> 
     pipe.take(allowed).read_to_end(bytes)?;
     if bytes.len() as u64 > most {
         return Err(io::Error::other(format!(
-            "it has more than {most} bytes, the most that marbles reads from a pipe"
+            "it has more than {most} bytes, the most that marbles reads from a pipe; save the picture in a file"
         )));
     }
     Ok(())
@@ -102,7 +102,7 @@ mod tests {
         let endless = read_rest(io::repeat(0), &mut b"start".to_vec(), 1 << 20);
         assert_eq!(
             endless.unwrap_err().to_string(),
-            "it has more than 1048576 bytes, the most that marbles reads from a pipe"
+            "it has more than 1048576 bytes, the most that marbles reads from a pipe; save the picture in a file"
         );
     }
 

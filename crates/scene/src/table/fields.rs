@@ -19,6 +19,17 @@ pub(crate) enum Division {
     Pqr,
 }
 
+impl Division {
+    /// The columns from 0 that this field of a line is in, if fields have fixed columns.
+    pub(crate) fn place(&self, field: &Range<usize>) -> Option<Range<usize>> {
+        let Self::Fixed(places) = self else {
+            return None;
+        };
+        let mut places = places.iter();
+        places.find(|place| place.contains(&field.start)).cloned()
+    }
+}
+
 /// The fields of a line, one after another.
 #[derive(Clone, Debug)]
 pub(crate) struct Fields<'line> {

@@ -268,6 +268,21 @@ fn ends_early(line: &[u8], number: u64, plan: &Plan, column: usize) -> LocatedFa
     LocatedFault::expected(number, line, end..end, &expected)
 }
 
+/// Adds the columns of a field to what is expected in it, if the field has spaces inside: another program may have
+/// divided the line by spaces.
+#[cold]
+fn placed(expected: String, line: &[u8], field: Range<usize>, form: &Form) -> String {
+    let has_spaces = line[field.clone()].contains(&b' ');
+    match form.division.place(&field) {
+        Some(place) if has_spaces => format!(
+            "{expected} in columns {} to {} (the fields of this format have fixed columns)",
+            place.start + 1,
+            place.end
+        ),
+        _ => expected,
+    }
+}
+
 /// Reads the row in the line with this number, which is kept.
 #[inline(always)]
 fn read_line(
@@ -314,7 +329,8 @@ fn read_line(
                         None => Some("a number"),
                     };
                     if let Some(expected) = refusal {
-                        return refused(field, &plan.expected(column, expected));
+                        let expected = plan.expected(column, expected);
+                        return refused(field.clone(), &placed(expected, line, field, form));
                     }
                     numbers[slot.index()] = value.unwrap_or_default();
                 }

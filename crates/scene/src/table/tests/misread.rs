@@ -192,6 +192,16 @@ fn coordinates_that_leave_their_columns_are_refused() {
         refusal("a.pdb", pdb("12345.67812345.67812345.678  1.00 10.00"), ""),
         "a.pdb:1:31: expected coordinates that fit into their columns, found 12345.67812345.67812345."
     );
+    // Programs that divide lines by spaces write such lines.
+    assert_eq!(
+        refusal(
+            "a.pdb",
+            "ATOM 1 N MET A 1 27.340 24.430 2.614 1.00 9.67 N\n",
+            ""
+        ),
+        "a.pdb:1:32: expected a number for `x` in columns 31 to 38 (the fields of this format have fixed columns), \
+         found 2.614 1"
+    );
     for (numbers, is_read) in [
         ("1234.5671234.5671234.567  0.1000", true),
         ("1234.5671234.5671234.5671234.5671234.5671234.567", true),
