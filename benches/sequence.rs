@@ -21,7 +21,7 @@ fn main() {
     run(|| {
         let mut page = is_to_write().then(|| Page::open("docs/sequences.md", &["files"]));
         let mut rows = String::from(
-            "| frames | pictures alone, one by one | to PNG | to half-float ZIP EXR |\n\
+            "| frames | rendering alone, one frame after another | to PNG | to half-float ZIP EXR |\n\
              |---|--:|--:|--:|\n",
         );
         let folder = Folder::new();

@@ -25,11 +25,12 @@ SCENE = """(image: (width: 48, height: 32), lens: Fov(30), camera: Frame(), ambi
 lights: [Directional(toward: (1, 2, -1))], clouds: [(file: "table{ending}"{fields})])"""
 PAGE = """# Files from other programs
 
-This page shows which files of other programs marbles renders as they are. The files come from the source packages of {packages} programs.
-marbles renders {rendered} of {files} files without any change. For the others, the last column shows the error message.
+This page lists files from other programs, and shows which of them marbles renders as they are. The files come from the source
+packages of {packages} programs. marbles renders {rendered} of {files} files without any change. For the others, the last column
+shows the error message.
 
-To show one of these files, put its name into a scene file as `clouds: [(file: "NAME")]`. Some files need another field, which is
-in the third column: files with plain points contain no radii, and files with coarse-grained models contain no elements.
+To show one of these files, put its name into a scene file as `clouds: [(file: "NAME")]`. Some files need additional fields,
+given in the third column, because plain points have no radii, and coarse-grained models have no elements.
 
 `tests/real_files.py` renders the files, and writes this page.
 

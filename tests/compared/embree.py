@@ -10,7 +10,7 @@ from compared.program import Clock, Method, Program, Rendered, averaged, grids
 from compared.scenes import Scene
 
 STREAMS = Method(
-    "Embree, its rays alone",
+    "Embree, rays only",
     "rtcIntersect1M, rtcOccluded1M, threads=1, RTC_GEOMETRY_TYPE_SPHERE_POINT",
     **grids([1, 2, 4, 8, 16, 32]),
 )

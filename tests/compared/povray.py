@@ -10,7 +10,7 @@ from compared.program import Method, Program, Rendered, averaged, grids, read_pp
 from compared.scenes import Scene
 
 FIXED = Method(
-    "POV-Ray, N × N as large",
+    "POV-Ray, enlarged N × N",
     "povray +ISCENE +W… +H… +FP16 File_Gamma=1.0 -A +WT1",
     **grids([1, 2, 4, 8, 16, 32]),
 )

@@ -9,7 +9,7 @@ from compared.program import Method, Program, Rendered, averaged, grids, read_pp
 from compared.scenes import Scene
 
 FIXED = Method(
-    "Tachyon, N × N as large",
+    "Tachyon, enlarged N × N",
     "tachyon SCENE -res … … -fullshade -numthreads 1 -format PPM48",
     **grids([1, 2, 4, 8, 16, 32]),
 )

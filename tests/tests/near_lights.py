@@ -1,7 +1,7 @@
-"""Predicts the pictures of a data set from its lights, normals and depths, and tells how far they are from the true ones.
+"""Predicts the pictures of a data set from its lights, normals and depths, and prints how far they are from the true ones.
 
-Usage: near_lights.py FOLDER, with the files of `marbles dataset scenes/near_lights.ron --layout luces` in FOLDER, and
-numpy and OpenCV on the path. Ends with 1 where a pixel that a light reaches is off by more than the tolerance.
+Usage: near_lights.py FOLDER, where FOLDER has the files of `marbles dataset scenes/near_lights.ron --layout luces`.
+Needs numpy and OpenCV. Exits with 1 if a predicted pixel is off by more than 1e-4, or if fewer than half are predicted.
 """
 
 import sys

@@ -1,7 +1,7 @@
-"""Recovers normals by least squares from a data set, and tells how far they are from the true ones.
+"""Recovers normals by least squares from a data set, and prints how far they are from the true ones.
 
-Usage: photometric_stereo.py FOLDER, with the files of `marbles dataset --layout diligent` in FOLDER, and
-numpy, scipy and OpenCV on the path. Ends with 1 where a normal is off by more than a thousandth of a degree.
+Usage: photometric_stereo.py FOLDER, where FOLDER has the files of `marbles dataset --layout diligent`.
+Needs numpy, scipy and OpenCV. Exits with 1 if any normal is off by more than a thousandth of a degree.
 """
 
 import sys

@@ -74,7 +74,7 @@ pub const FAMILIES: [Family; 46] = [
     Family::new("radius, huge or tiny", extremes::extreme_radius),
     Family::new("distance overflows", extremes::overflowing_distance),
     Family::new("distance underflows", extremes::underflowing_distance),
-    Family::new("limits of moderation", extremes::limits_of_moderation),
+    Family::new("squares near 2^±256", extremes::limits_of_moderation),
     Family::new("any exponents", extremes::any_exponents),
     Family::new("any bits", extremes::any_bits),
 ];

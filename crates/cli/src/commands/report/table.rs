@@ -137,7 +137,9 @@ fn notes(report: &Report) -> Vec<String> {
         ));
     }
     if rows.iter().any(|row| is_below_reference(row, report)) {
-        notes.push("? no larger than the error of the reference may be".to_owned());
+        notes.push(
+            "? not known exactly: the error of the reference may be just as large".to_owned(),
+        );
     }
     for row in rows {
         let not_met = row.setting.summary.over_tolerance;
