@@ -137,8 +137,8 @@ def processor() -> str:
 
 def page(measured: str, programs: list[Program], results: list[tuple], options) -> str:
     """The measured part of the page."""
-    text = f"Measured at {measured}, on {processor()}; medians of at least {options.runs} runs, "
-    text += f"settings of up to {options.seconds:g} s.\n\n"
+    text = f"Measured at {measured}, on {processor()}; medians of at least {options.runs} runs; "
+    text += f"settings that would take longer than {options.seconds:g} s are left out.\n\n"
     rows = []
     for program in programs:
         for method in program.methods:
