@@ -183,7 +183,8 @@ impl Contour {
                     let depth = &all.depths[self.depth];
                     let both = inside.share.min(theirs.share) + inside.doubt + theirs.doubt;
                     let before = depth.behind(simd, &all.depths[other.depth], both.simd_gt(zero));
-                    in_doubt += before.doubt * inside.share * theirs.share;
+                    // They have at most the smaller share in common: slivers along their silhouettes may be nested.
+                    in_doubt += before.doubt * inside.share.min(theirs.share);
                     region.cut_by_both(simd, &theirs, &before);
                 }
             }
