@@ -13,9 +13,8 @@ use crate::search::view_index::ViewIndex;
 pub(crate) const FEWEST: usize = 64;
 
 /// The units that crowds may cost, for each pixel of a picture, and the pixels that a smaller picture counts as: in one
-/// of these, 600 × 400, crowds cost about 7 s on one thread, beside what finds them, which 100,000 spheres within a
-/// thousandth of their radius have take as long again.
-const OF_PIXEL: u64 = 768;
+/// of these, 600 × 400, crowds cost about 10 s on one thread, beside what finds them.
+const OF_PIXEL: u64 = 1536;
 const LEAST_PIXELS: u64 = 240_000;
 
 /// The share of a tile's units that one pixel may take.
