@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 use marbles_core::{Color, Evidence, Image, LightFalloff, PointLight, Sphere, World};
 use marbles_scene::Scene;
+use marbles_tests::reference::Reference;
 
 use crate::studio::{exact_picture, looking_forward, matte, picture, pixels, world_of};
 
@@ -47,6 +48,45 @@ fn floors_of_any_radius_are_known_under_any_light() {
                 let image = image(&scene, tolerance);
                 let over = image.summary().over_tolerance;
                 assert_eq!(over, 0, "{light} {radius:e} {tolerance:e}");
+            }
+        }
+    }
+}
+
+/// A level parallel lens sees all of a floor in one row of pixels: as far as a lamp lights it, in a small part of that row.
+/// Balls reach into the floor there, and hang over it.
+#[test]
+fn horizons_of_floors_under_lamps_are_known_to_level_parallel_lenses() {
+    const ROW: u32 = 8;
+    for radius in [1e4, 1e6, 1e8] {
+        let middle = -(radius + 0.8);
+        let text = format!(
+            "(image: (width: 16, height: 16), lens: Parallel(width: 32),
+            camera: Free(position: (0, 0, -300)), ambient: 0.1,
+            lights: [Point(position: (-5, 6, 2), intensity: 0.5, reference: 10),
+                Directional(toward: (-0.4, 0.6, 0.5), intensity: 0.4)],
+            materials: {{ \"m\": (albedo: 0.9, highlight: (strength: 0.4, shininess: 20)) }},
+            spheres: [(center: (0.3, {middle:?}, 1), radius: {radius:?}, material: \"m\"),
+                (center: (6, 2.5, -20), radius: 4, material: \"m\"),
+                (center: (-9, 7, -3), radius: 2.5, material: \"m\")])"
+        );
+        let scene = Scene::parse(&text, Path::new("level.ron")).unwrap();
+        let reference = Reference::new(scene.world(), &scene.view(1).unwrap());
+        for tolerance in [1e-3, 1e-4] {
+            let image = image(&scene, tolerance);
+            assert_eq!(
+                image.summary().over_tolerance,
+                0,
+                "{radius:e} {tolerance:e}"
+            );
+            for col in 0..16 {
+                let claimed = image.error(col, ROW);
+                let truth = reference.pixel_to(col, ROW, 0.1 * tolerance);
+                let off = (image.rgba(col, ROW)[0] - truth.value.x).abs();
+                assert!(
+                    off <= claimed + truth.error,
+                    "{radius:e} {tolerance:e} {col}: {off:e} {claimed:e}"
+                );
             }
         }
     }

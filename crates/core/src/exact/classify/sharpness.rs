@@ -8,6 +8,7 @@ use super::contents::Contents;
 use super::patch::Patch;
 use super::reach::Reach;
 use crate::edges::cell::{Ball, Cell};
+use crate::edges::silhouette::silhouette;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
@@ -104,6 +105,45 @@ impl Contents {
             }
         }
         false
+    }
+
+    /// The side along which halves of a cell of parallel rays see shorter patches than halves along the other side do.
+    ///
+    /// A level floor's horizon may lie within a cell: what is seen of it is as deep however narrow the cell is.
+    pub(crate) fn long_side(&self, cell: &Cell) -> Option<usize> {
+        /// The lengths of both halves along the one side, over those along the other. Where all depth is along one side, it is
+        /// a half.
+        const SHORTER: f64 = 0.75;
+        if !cell.is_parallel() {
+            return None;
+        }
+        let longest = |cell: Cell| {
+            let seen = self.active.iter();
+            let seen = seen.filter(|active| active.ball.outside > 0.0 && !active.is_dark);
+            let seen = seen.map(|active| &active.ball);
+            let lengths = seen
+                .chain(self.cut.iter().map(|(_, ball)| ball))
+                .map(|ball| {
+                    let along = cell.along(ball.center);
+                    let patch = Patch::new(&cell, ball, &silhouette(&cell, ball), &along);
+                    (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around
+                });
+            lengths.fold(0.0, f64::max)
+        };
+        let halves = [[-0.5, 0.0], [0.0, 0.5]];
+        let whole = [-0.5, 0.5];
+        let [x, y] = [
+            halves.map(|half| longest(cell.part(half, whole))),
+            halves.map(|half| longest(cell.part(whole, half))),
+        ]
+        .map(|[low, high]| low + high);
+        if x < SHORTER * y {
+            Some(0)
+        } else if y < SHORTER * x {
+            Some(1)
+        } else {
+            None
+        }
     }
 
     /// Returns whether bumps are so fine that rules along chords of the cell, and across them, know too little

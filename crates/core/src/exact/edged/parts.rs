@@ -1,4 +1,4 @@
-//! The integral over a pixel by its quarters, where it is hard along all of its edges, and by theirs.
+//! The integral over a pixel by its quarters, or halves, where it is hard along all of its edges, and by theirs.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -21,7 +21,7 @@ const LOST_TO_ROUNDING: f64 = 0.25;
 const ENOUGH_UNDER_POINTS: f64 = 0.8;
 
 impl Workspace {
-    /// The average by parts, each the quarter of another that claims too much, those first that cost most,
+    /// The average by parts, each a quarter or a half of another that claims too much, those first that cost most,
     /// until the budget is over. `why` tells what is known of the whole.
     pub(crate) fn by_parts<S: Simd>(
         &mut self,
@@ -61,7 +61,7 @@ impl Workspace {
         } else {
             0
         };
-        let mut left = BinaryHeap::from([Quarter::new(pixel.whole(), 0, whole)]);
+        let mut left = BinaryHeap::from([Piece::new(pixel.whole(), whole)]);
         // What met the tolerance first, should more parts claim more.
         let mut met: Option<Part> = None;
         while let Some(worst) = left.pop() {
@@ -69,28 +69,34 @@ impl Workspace {
                 || self.budget.is_over(doubt, context.tolerance)
                 || self.budget.left() < of_quarters;
             let is_met = doubt.error <= enough;
-            if is_met || is_over || worst.depth == DEEPEST {
+            if is_met || is_over || worst.is_last() {
                 best.add(&worst.part, worst.share());
                 continue;
             }
             if met.is_none() && doubt.error <= context.tolerance {
                 let mut part = best;
-                for quarter in left.iter().chain([&worst]) {
-                    part.add(&quarter.part, quarter.share());
+                for piece in left.iter().chain([&worst]) {
+                    part.add(&piece.part, piece.share());
                 }
                 met = Some(part);
             }
             doubt.add(&worst, -1.0);
-            let depth = worst.depth + 1;
-            for [x, y] in QUARTERS {
-                let cell = worst.cell.part(x, y);
+            for mut piece in worst.pieces(unknown) {
                 self.contents
-                    .see(&context.scene, &cell, pixel.spheres, cache);
+                    .see(&context.scene, &piece.cell, pixel.spheres, cache);
                 self.work.candidate_tests += pixel.spheres.len() as u64;
-                let part = self.part(simd, pixel, &cell, (depth, cache));
-                let quarter = Quarter::new(cell, depth, part.unwrap_or(unknown));
-                doubt.add(&quarter, 1.0);
-                left.push(quarter);
+                let part = self.part(simd, pixel, &piece.cell, (piece.quarterings, cache));
+                let may_be_long = match &part {
+                    Err(GiveUp::Narrow) => context.scene.has_near_lights,
+                    Err(GiveUp::Unknown) => self.contents.is_mixed,
+                    _ => false,
+                };
+                if may_be_long {
+                    piece.halved = self.contents.long_side(&piece.cell);
+                }
+                let piece = piece.with(part.unwrap_or(unknown));
+                doubt.add(&piece, 1.0);
+                left.push(piece);
             }
         }
         if whole.error < best.error {
@@ -122,57 +128,102 @@ const QUARTERS: [[[f64; 2]; 2]; 4] = [
     [[0.0, 0.5], [0.0, 0.5]],
 ];
 
+/// The same for the halves along x, and along y.
+const HALVES: [[[[f64; 2]; 2]; 2]; 2] = [
+    [[[-0.5, 0.0], [-0.5, 0.5]], [[0.0, 0.5], [-0.5, 0.5]]],
+    [[[-0.5, 0.5], [-0.5, 0.0]], [[-0.5, 0.5], [0.0, 0.5]]],
+];
+
+/// How often cells are halved along their long sides. What is left of a horizon then is less than 2⁻²⁴ of the contrast,
+/// at the cost of two cells each time.
+const MOST_HALVINGS: i32 = 24;
+
 /// A part of a pixel that has been integrated, in the order of what it costs.
 #[derive(Clone, Copy, Debug)]
-struct Quarter {
+struct Piece {
     cell: Cell,
-    depth: i32,
+    quarterings: i32,
+    halvings: i32,
+    /// The side along which it is to be halved, where quarters would do no better.
+    halved: Option<usize>,
     part: Part,
     /// Its contribution to the pixel's error.
     cost: f64,
 }
 
-impl Quarter {
-    fn new(cell: Cell, depth: i32, part: Part) -> Self {
-        let mut quarter = Self {
+impl Piece {
+    /// The whole pixel.
+    fn new(cell: Cell, part: Part) -> Self {
+        let whole = Self {
             cell,
-            depth,
+            quarterings: 0,
+            halvings: 0,
+            halved: None,
             part,
             cost: 0.0,
         };
-        quarter.cost = part.error * quarter.share();
-        quarter
+        whole.with(part)
+    }
+
+    /// The same with another integral.
+    fn with(self, part: Part) -> Self {
+        let cost = part.error * self.share();
+        Self { part, cost, ..self }
     }
 
     /// Its share of the pixel.
     fn share(&self) -> f64 {
-        0.25_f64.powi(self.depth)
+        0.25_f64.powi(self.quarterings) * 0.5_f64.powi(self.halvings)
+    }
+
+    /// Returns whether it is not divided any more.
+    fn is_last(&self) -> bool {
+        match self.halved {
+            Some(_) => self.halvings == MOST_HALVINGS,
+            None => self.quarterings == DEEPEST,
+        }
+    }
+
+    /// Its quarters, or halves, of which nothing is known yet.
+    fn pieces(self, unknown: Part) -> impl Iterator<Item = Self> {
+        let (quarterings, halvings, parts) = match self.halved {
+            None => (1, 0, QUARTERS.as_slice()),
+            Some(axis) => (0, 1, HALVES[axis].as_slice()),
+        };
+        parts.iter().map(move |&[x, y]| Self {
+            cell: self.cell.part(x, y),
+            quarterings: self.quarterings + quarterings,
+            halvings: self.halvings + halvings,
+            halved: None,
+            part: unknown,
+            cost: 0.0,
+        })
     }
 }
 
 impl Doubt {
     /// Adds what a part adds to the pixel's error, or its opposite.
-    fn add(&mut self, quarter: &Quarter, sign: f64) {
-        self.error += sign * quarter.cost;
-        self.rounding += sign * quarter.part.rounding * quarter.share();
+    fn add(&mut self, piece: &Piece, sign: f64) {
+        self.error += sign * piece.cost;
+        self.rounding += sign * piece.part.rounding * piece.share();
     }
 }
 
-impl PartialEq for Quarter {
+impl PartialEq for Piece {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Quarter {}
+impl Eq for Piece {}
 
-impl PartialOrd for Quarter {
+impl PartialOrd for Piece {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Quarter {
+impl Ord for Piece {
     fn cmp(&self, other: &Self) -> Ordering {
         self.cost.total_cmp(&other.cost)
     }
