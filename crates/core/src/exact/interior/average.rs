@@ -6,7 +6,7 @@ use super::estimate::{Estimate, ROUNDING, apart_on_bumps, bend_of_grid};
 use super::filled::{Filled, Radiance};
 use super::light_cosines::LightCosines;
 use super::remainder::Rules;
-use super::samples::{FROM_GRID, GAUSS_SAMPLES, POINTS, Rule, SAMPLES, STAR_SAMPLES, Sample};
+use super::samples::{GAUSS_SAMPLES, POINTS, Rule, SAMPLES, STAR_SAMPLES, Sample};
 use super::terminators::MEDIUM;
 use crate::exact::points::Points;
 use crate::model::color::Color;
@@ -204,7 +204,7 @@ impl<S: Simd> Filled<'_, S> {
         if self.finish.is_rough()
             && let Some(cosines) = &*cosines
         {
-            let missed = self.missed(simd, cosines, FROM_GRID);
+            let missed = self.missed(simd, Rule::Grid, cosines);
             into.is_out_of_reach = !into.star.is_met & missed.simd_gt(self.tolerance);
             into.is_out_of_reach |= !is_seen;
         }
@@ -294,7 +294,7 @@ impl<S: Simd> Filled<'_, S> {
             // Along diagonals, what lobes miss along both axes may cancel.
             error = error.max(self.of_lobes(simd, Rule::Grid, cosines));
             if is_rough {
-                error += self.missed(simd, cosines, FROM_GRID);
+                error += self.missed(simd, Rule::Grid, cosines);
             }
         }
         if is_rough {

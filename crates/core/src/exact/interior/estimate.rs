@@ -5,7 +5,7 @@ use fearless_simd::Simd;
 use super::filled::{Filled, Radiance};
 use super::kinks::Kinks;
 use super::light_cosines::LightCosines;
-use super::samples::{FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, Rule, WEIGHTS};
+use super::samples::{GAUSS_SAMPLES, GRID, POINTS, Rule, WEIGHTS};
 use super::terminators::{MEDIUM, SMALL};
 use crate::exact::costs::highest_cosine;
 use crate::numeric::lanes::{f64x8, mask64x8};
@@ -96,20 +96,18 @@ impl<S: Simd> Filled<'_, S> {
             // Each term is less than ν² times that before.
             of_root /= (nearness_sq * -1.0 + 1.0).max(zero);
         }
-        let from_samples = if is_star { FROM_STAR } else { FROM_GRID };
-        let slope = match cosines {
-            Some(cosines) if kinks.is_some() => self.slope_of_light(simd, cosines, from_samples),
-            _ => zero,
-        };
+        let from_samples = rule.farthest();
+        let steep = kinks.zip(cosines).map(|(kinks, cosines)| {
+            let slope = self.slope_of_light(simd, cosines, from_samples);
+            (kinks, slope)
+        });
         let mut error = zero;
-        let mut most_light = zero;
         for channel in 0..self.scene.channels {
             let (mut highest, mut lowest) = (lights[0][channel], lights[0][channel]);
             for light in &lights[..rule.samples()] {
                 highest = highest.max(light[channel]);
                 lowest = lowest.min(light[channel]);
             }
-            most_light = most_light.max(highest);
             let bend = if is_star {
                 bend_of_star(lights, channel)
             } else {
@@ -126,7 +124,7 @@ impl<S: Simd> Filled<'_, S> {
             let amplitude = if is_rough { highest } else { zero + most };
             error = error.max(estimate * bend + of_root * amplitude + highest * ROUNDING);
             if is_rough && !is_star {
-                let explained = kinks.map_or(zero, |kinks| kinks.apart(slope));
+                let explained = steep.map_or(zero, |(kinks, slope)| kinks.apart(&slope));
                 error = error.max(apart_on_bumps(lights, channel, explained));
             }
         }
@@ -140,19 +138,19 @@ impl<S: Simd> Filled<'_, S> {
         if let Some(cosines) = cosines {
             error = error.max(self.of_lobes(simd, rule, cosines));
             if is_rough {
-                error += self.of_powers(simd, rule, cosines) * most_light;
+                error += self.of_powers(simd, rule, cosines);
             }
         }
         let mut is_known = self.nearness.simd_lt(MOST_NEARNESS);
         if is_rough {
             is_known = self.nearness.simd_lt(MOST_NEARNESS_OF_BUMPS);
             if let Some(cosines) = cosines {
-                error += self.missed(simd, cosines, from_samples);
+                error += self.missed(simd, rule, cosines);
             }
             is_known &= self.is_within(if is_star { SMALL } else { MEDIUM });
         }
-        if let Some(kinks) = kinks {
-            error += kinks.missed(rule, slope);
+        if let Some((kinks, slope)) = steep {
+            error += kinks.missed(rule, &slope);
         }
         let mut is_met = is_known & error.simd_le(self.tolerance);
         if is_rough && is_star && kinks.is_none() {
@@ -177,10 +175,7 @@ impl<S: Simd> Filled<'_, S> {
         let zero = f64x8::splat(simd, 0.0);
         let mut sum = zero;
         let turn = self.turn * self.finish.usual_slope();
-        let from_samples = match rule {
-            Rule::Star => FROM_STAR,
-            Rule::Grid => FROM_GRID,
-        };
+        let from_samples = rule.farthest();
         let most = self.turn * (self.finish.shading_normal.slope_bound() * from_samples);
         let has_highlight = bells[1].exponent > 0.0;
         for (index, light) in self.scene.lights.iter().enumerate() {

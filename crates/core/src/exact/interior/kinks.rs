@@ -7,6 +7,7 @@ use super::light_cosines::LightCosines;
 use super::samples::Rule;
 use crate::exact::costs::highest_cosine;
 use crate::exact::points::Points;
+use crate::light::reflection::Falloff;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::bits::set_bits;
@@ -28,25 +29,28 @@ const OF_JUMP_BY_STAR: f64 = 0.003;
 const OF_JUMP_BY_GRID: f64 = 0.0008;
 
 impl<S: Simd> Kinks<S> {
-    /// The error of a rule for light whose slope by the shading normal is `slope`.
+    /// The error of a rule for light with this slope by the shading normal.
     #[inline(always)]
-    pub(super) fn missed(&self, rule: Rule, slope: f64x8<S>) -> f64x8<S> {
+    pub(super) fn missed(&self, rule: Rule, slope: &Slope<S>) -> f64x8<S> {
         /// The factor by which jumps are taken to be larger than in the middle of a pixel, with what third derivatives
         /// jump by.
         const CAUTION: f64 = 2.0;
         /// The error of the star for smooth bumps, over the fourth power of cells from the middle to the corners: 1/720
         /// of the mixed fourth derivative, which is taken to be 14 in cells, three times the root of its mean square.
         const OF_SPAN: f64 = 0.08;
-        match rule {
-            Rule::Star => (self.jump * (CAUTION * OF_JUMP_BY_STAR) + self.span * OF_SPAN) * slope,
-            Rule::Grid => self.jump * slope * (CAUTION * OF_JUMP_BY_GRID),
-        }
+        let by_star = self.jump * (CAUTION * OF_JUMP_BY_STAR) + self.span * OF_SPAN;
+        let missed = match rule {
+            Rule::Star => by_star,
+            Rule::Grid => self.jump * (CAUTION * OF_JUMP_BY_GRID),
+        };
+        slope.change(missed, by_star)
     }
 
     /// By how much both rules may differ because of jumps.
     #[inline(always)]
-    pub(super) fn apart(&self, slope: f64x8<S>) -> f64x8<S> {
-        self.jump * slope * (OF_JUMP_BY_STAR + OF_JUMP_BY_GRID)
+    pub(super) fn apart(&self, slope: &Slope<S>) -> f64x8<S> {
+        let apart = self.jump * (OF_JUMP_BY_STAR + OF_JUMP_BY_GRID);
+        slope.change(apart, apart)
     }
 }
 
@@ -127,40 +131,80 @@ impl<S: Simd> Filled<'_, S> {
         simd: S,
         cosines: &LightCosines<S>,
         from_samples: f64,
-    ) -> f64x8<S> {
+    ) -> Slope<S> {
         /// Cosines below which highlights are as steep as there.
         const LEAST: f64 = 0.5;
+        /// A cosine below which powers may be as steep as there: what they change by is known otherwise.
+        const STEEPEST: f64 = 1e-100;
         let one = f64x8::splat(simd, 1.0);
-        let mut slope = f64x8::splat(simd, 0.0);
+        let zero = f64x8::splat(simd, 0.0);
         let [exponent, shininess] = self.finish.reflectance.exponents();
+        let falloff = self.finish.reflectance.diffuse;
+        let mut slope = Slope {
+            linear: zero,
+            falloff,
+            steep: zero,
+            most: 0.0,
+        };
         let turn = self.turn * (self.finish.usual_slope() * from_samples);
         for (index, light) in self.scene.lights.iter().enumerate() {
             if self.lit[index] == 0 {
                 continue;
             }
             let [diffuse, specular] = self.finish.reflectance.brightest(light.intensity);
+            let highest = highest_cosine(simd, cosines.highest[index], turn);
             let steepest = if exponent < 1.0 {
-                (cosines.lowest[index] - turn).max(one * f64::MIN_POSITIVE)
+                (cosines.lowest[index] - turn).max(one * STEEPEST)
             } else {
-                highest_cosine(simd, cosines.highest[index], turn)
+                highest
             };
-            let power = self
-                .finish
-                .reflectance
-                .diffuse
-                .of_clamped(steepest.min(one));
+            let power = falloff.of_clamped(steepest.min(one));
             let of_diffuse = match exponent == 1.0 {
                 true => one,
                 false => power / steepest.max(one * f64::MIN_POSITIVE) * exponent,
             };
-            slope += of_diffuse * diffuse;
+            if exponent < 1.0 {
+                // Where all of it is averted from the light it stays dark.
+                slope.steep += highest.simd_gt(zero).select(of_diffuse * diffuse, zero);
+                slope.most += diffuse;
+            } else {
+                slope.linear += of_diffuse * diffuse;
+            }
             if specular > 0.0 {
                 let highest = highest_cosine(simd, cosines.halves.highest[index], turn);
                 let highest = highest.max(one * LEAST);
-                slope += self.finish.highlight_of(highest) / highest * (shininess * specular);
+                slope.linear +=
+                    self.finish.highlight_of(highest) / highest * (shininess * specular);
             }
         }
         slope
+    }
+}
+
+/// The largest slope of light by the shading normal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slope<S: Simd> {
+    linear: f64x8<S>,
+    falloff: Falloff,
+    /// The slope of diffuse light with an exponent below 1, and the most of that light.
+    steep: f64x8<S>,
+    most: f64,
+}
+
+impl<S: Simd> Slope<S> {
+    /// The error of light where a rule misses so much of the cosine, whose distance from a cubic, which rules know, is less
+    /// than `apart`.
+    ///
+    /// A power e below 1 changes by no more than a change of the cosine to the power of e, in the samples and in the mean.
+    #[inline(always)]
+    fn change(&self, missed: f64x8<S>, apart: f64x8<S>) -> f64x8<S> {
+        let linear = missed * self.linear;
+        if self.falloff.exponent >= 1.0 {
+            return linear;
+        }
+        let one = missed * 0.0 + 1.0;
+        let most = self.falloff.of_clamped(apart.min(one)) * (2.0 * self.most);
+        (missed * self.steep).min(most) + linear
     }
 }
 

@@ -12,7 +12,7 @@ use crate::numeric::lanes::f64x8;
 const SMOOTH: f64 = 4.0;
 
 impl<S: Simd> Filled<'_, S> {
-    /// The errors of a rule for the powers of all cosines, as shares of the light.
+    /// The error of a rule for the powers of all cosines, in light.
     ///
     /// An estimate, as the cosine is taken to be linear, with the range that parabolas through the samples have in the
     /// corners. A cosine that falls between its samples, and rises again, would fool it: bumps smaller than half a
@@ -20,27 +20,48 @@ impl<S: Simd> Filled<'_, S> {
     #[inline(always)]
     pub(super) fn of_powers(&self, simd: S, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
-        let [diffuse, highlight] = self.finish.reflectance.exponents();
-        let is_singular = |exponent: f64| exponent < SMOOTH && exponent.fract() != 0.0;
-        let mut most = zero;
-        for index in 0..self.scene.lights.len() {
+        let powers = self.finish.reflectance.exponents().map(|exponent| {
+            let is_singular = exponent < SMOOTH && exponent.fract() != 0.0;
+            is_singular.then_some(Power(exponent))
+        });
+        let mut sum = zero;
+        if powers.iter().all(Option::is_none) {
+            return sum;
+        }
+        for (index, light) in self.scene.lights.iter().enumerate() {
             if self.lit[index] == 0 {
                 continue;
             }
-            if is_singular(diffuse) {
-                let share = Power(diffuse).share(rule, &cosines.with_corners(index));
-                most = most.max(share);
+            let (mut middles, mut shares) = ([zero; 2], [zero; 2]);
+            if let Some(diffuse) = &powers[0] {
+                let range = cosines.with_corners(index);
+                (middles[0], shares[0]) = (middle(&range), diffuse.share(rule, &range));
             }
-            if is_singular(highlight) {
+            if let Some(highlight) = &powers[1] {
                 let mut range = cosines.half_range(index);
                 let wider = range.width() * (0.5 * (TO_CORNER - 1.0));
                 range.lowest -= wider;
                 range.highest += wider;
-                most = most.max(Power(highlight).share(rule, &range));
+                (middles[1], shares[1]) = (middle(&range), highlight.share(rule, &range));
             }
+            let highlight = self.finish.highlight_of(middles[1]);
+            sum += self.finish.lobes(light, middles[0], highlight, shares);
         }
-        most
+        sum
     }
+}
+
+/// How near to 0 cosines may come, relatively to the middle of their range. Those that come nearer, or below, are left to
+/// other estimates.
+const NEAREST: f64 = 0.95;
+
+/// The middle of a range of cosines, as far as they are positive.
+#[inline(always)]
+fn middle<S: Simd>(range: &CosineRange<S>) -> f64x8<S> {
+    let middle = (range.highest + range.lowest) * 0.5;
+    middle
+        .max(range.highest * (1.0 / (1.0 + NEAREST)))
+        .max(middle * 0.0)
 }
 
 /// A power with this exponent.
@@ -57,8 +78,6 @@ impl Power {
     fn share<S: Simd>(&self, rule: Rule, range: &CosineRange<S>) -> f64x8<S> {
         const OF_FOURTH: f64 = 0.0334;
         const OF_SIXTH: f64 = 0.025;
-        /// Cosines that come this near to 0, or below, are left to other estimates.
-        const NEAREST: f64 = 0.95;
         let least = range.highest * 0.0 + f64::MIN_POSITIVE;
         let middle = (range.highest + range.lowest).max(least);
         let reach = (range.width() / middle).min(least + NEAREST);

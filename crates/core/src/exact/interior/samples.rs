@@ -51,6 +51,15 @@ impl Rule {
             Self::Grid => GAUSS_SAMPLES,
         }
     }
+
+    /// The half diagonals of a pixel from which no point is farther from a sample.
+    #[inline(always)]
+    pub(super) fn farthest(self) -> f64 {
+        match self {
+            Self::Star => FROM_STAR,
+            Self::Grid => FROM_GRID,
+        }
+    }
 }
 
 /// The samples: the star's, the rest of Gauss's grid, then those of Kronrod's rule on either diagonal. The

@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 
 use super::filled::{Filled, SIZE_OF_PARTS};
 use super::light_cosines::{CosineRange, LightCosines};
+use super::samples::Rule;
 use crate::exact::context::NEGLIGIBLE;
 use crate::numeric::lanes::{f64x8, mask64x8};
 
@@ -32,16 +33,17 @@ impl<S: Simd> Filled<'_, S> {
         (self.turn * self.finish.shading_normal.cells()).simd_lt(cells)
     }
 
-    /// The light that samples, from which no point is farther than `from_samples` half diagonals, may miss
-    /// where a rough surface faces a light here and averts itself from it there.
+    /// The light that the samples of a rule may miss where a rough surface faces a light here and averts itself from it
+    /// there.
     #[inline(always)]
-    pub(super) fn missed(&self, simd: S, cosines: &LightCosines<S>, from_samples: f64) -> f64x8<S> {
+    pub(super) fn missed(&self, simd: S, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
         /// The doubt in n · h at its samples, over the range and the distance from samples, as
         /// [`Self::variation`] has it; and how much wider its range may be than that of the samples. Not
         /// tuned.
         const OF_HALF_RANGE: f64 = 1.9;
         const HALF_CAUTION: f64 = 1.5;
         let zero = f64x8::splat(simd, 0.0);
+        let from_samples = rule.farthest();
         let scene = self.scene;
         let mut missed = zero;
         let negligible = NEGLIGIBLE * self.tolerance;
@@ -55,14 +57,14 @@ impl<S: Simd> Filled<'_, S> {
             let highlight = jumps.select(cosines.halves.powers[index], zero);
             let most = self
                 .finish
-                .cost_of_turning(light, variation.width, highlight);
+                .cost_of_turning(light, variation.width, highlight, rule);
             missed += is_cut.select(most, zero);
             if self.finish.has_blunt_highlight() {
                 let range = cosines.half_range(index);
                 let doubt = range.width() * (OF_HALF_RANGE * from_samples);
                 let is_cut = range.may_change_sign(doubt) & lit;
                 let width = range.width() * HALF_CAUTION;
-                let most = self.finish.cost_of_highlight_end(light, width);
+                let most = self.finish.cost_of_highlight_end(light, width, rule);
                 missed += is_cut.select(most, zero);
             }
         }
