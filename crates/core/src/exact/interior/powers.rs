@@ -6,6 +6,7 @@ use fearless_simd::Simd;
 use super::filled::Filled;
 use super::light_cosines::{CosineRange, LightCosines};
 use super::samples::{Rule, TO_CORNER};
+use crate::light::reflection::Falloff;
 use crate::numeric::lanes::f64x8;
 
 /// From this exponent on a power is smooth enough at 0: its fourth derivative is finite.
@@ -32,20 +33,17 @@ impl<S: Simd> Filled<'_, S> {
             if self.lit[index] == 0 {
                 continue;
             }
-            let (mut middles, mut shares) = ([zero; 2], [zero; 2]);
-            if let Some(diffuse) = &powers[0] {
-                let range = cosines.with_corners(index);
-                (middles[0], shares[0]) = (middle(&range), diffuse.share(rule, &range));
+            let [diffuse, specular] = self.finish.reflectance.brightest(light.intensity);
+            if let Some(power) = &powers[0] {
+                sum += power.missed(rule, &cosines.with_corners(index)) * diffuse;
             }
-            if let Some(highlight) = &powers[1] {
+            if let Some(power) = &powers[1] {
                 let mut range = cosines.half_range(index);
                 let wider = range.width() * (0.5 * (TO_CORNER - 1.0));
                 range.lowest -= wider;
                 range.highest += wider;
-                (middles[1], shares[1]) = (middle(&range), highlight.share(rule, &range));
+                sum += power.missed(rule, &range) * specular;
             }
-            let highlight = self.finish.highlight_of(middles[1]);
-            sum += self.finish.lobes(light, middles[0], highlight, shares);
         }
         sum
     }
@@ -68,6 +66,18 @@ fn middle<S: Simd>(range: &CosineRange<S>) -> f64x8<S> {
 struct Power(f64);
 
 impl Power {
+    /// The error of a rule for this power of a cosine, no more than 1.
+    #[inline(always)]
+    fn missed<S: Simd>(&self, rule: Rule, range: &CosineRange<S>) -> f64x8<S> {
+        let middle = middle(range).min(range.highest * 0.0 + 1.0);
+        // Powers above 1 are no larger than the cosine.
+        let height = match self.0 < 1.0 {
+            true => Falloff::new(self.0).of_clamped(middle),
+            false => middle,
+        };
+        self.share(rule, range) * height
+    }
+
     /// The error of a rule for this power of a cosine, as a share of its value in the middle of its range.
     ///
     /// # Source
