@@ -64,10 +64,6 @@ pub(super) const DEEPEST: i32 = 12;
 /// From which depth on the quarters of a crowded part are thought to be crowded, too.
 const CROWDED: i32 = 4;
 
-/// The factor on what integrals along edges under point lights claim: two pixels in ten million, along terminators beside
-/// contours, were off by up to 7 % more than they claimed without it.
-const CAUTION_UNDER_POINTS: f64 = 1.25;
-
 /// Powers that no rule along a chord overlooks.
 const BROAD: f64 = 60.0;
 
@@ -312,10 +308,7 @@ impl Workspace {
             work += cost;
             self.work.samples += cost.samples;
             self.work.lines += std::mem::take(&mut self.boundary.lines);
-            if let Ok(mut part) = found {
-                if scene.has_near_lights {
-                    part.error *= CAUTION_UNDER_POINTS;
-                }
+            if let Ok(part) = found {
                 best = Ok(match best {
                     // A closer look that sees something else outvotes the claim of the first.
                     Ok(known) if known.differs_from(&part) => part.or_as_far_as(&known),

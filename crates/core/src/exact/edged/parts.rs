@@ -16,6 +16,10 @@ use crate::exact::part::{GiveUp, Part};
 const LOST: f64 = 0.01;
 const LOST_TO_ROUNDING: f64 = 0.25;
 
+/// The share of the tolerance that parts under point lights may claim together before no more of them are divided: one
+/// pixel in a million, along a terminator beside a contour, was off by 7 % more than its parts claimed.
+const ENOUGH_UNDER_POINTS: f64 = 0.8;
+
 impl Workspace {
     /// The average by parts, each a quarter or a half of another that claims too much, those first that cost most,
     /// until the budget is over. `why` tells what is known of the whole.
@@ -46,6 +50,11 @@ impl Workspace {
         };
         // However small its parts are, all of the pixel is moved.
         let mut is_over = moved > context.tolerance;
+        let enough = if context.scene.has_near_lights {
+            ENOUGH_UNDER_POINTS * context.tolerance
+        } else {
+            context.tolerance
+        };
         // In each quarter of a crowd all are asked again.
         let of_quarters = if self.is_crowd {
             (QUARTERS.len() * pixel.spheres.len()) as u64
@@ -53,14 +62,23 @@ impl Workspace {
             0
         };
         let mut left = BinaryHeap::from([Piece::new(pixel.whole(), whole)]);
+        // What met the tolerance first, should more parts claim more.
+        let mut met: Option<Part> = None;
         while let Some(worst) = left.pop() {
             is_over = is_over
                 || self.budget.is_over(doubt, context.tolerance)
                 || self.budget.left() < of_quarters;
-            let is_met = doubt.error <= context.tolerance;
+            let is_met = doubt.error <= enough;
             if is_met || is_over || worst.is_last() {
                 best.add(&worst.part, worst.share());
                 continue;
+            }
+            if met.is_none() && doubt.error <= context.tolerance {
+                let mut part = best;
+                for piece in left.iter().chain([&worst]) {
+                    part.add(&piece.part, piece.share());
+                }
+                met = Some(part);
             }
             doubt.add(&worst, -1.0);
             for mut piece in worst.pieces(unknown) {
@@ -83,6 +101,11 @@ impl Workspace {
         }
         if whole.error < best.error {
             best = whole;
+        }
+        if let Some(part) = met
+            && best.error > context.tolerance
+        {
+            best = part;
         }
         // Samples at least see exactly.
         let lost = best.error - best.rounding;
