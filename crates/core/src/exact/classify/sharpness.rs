@@ -107,12 +107,13 @@ impl Contents {
         false
     }
 
-    /// The side along which halves of a cell of parallel rays see shorter patches than halves along the other side do.
+    /// The axis, 0 for x, along which halves of a cell of parallel rays see much shorter patches than halves along the other
+    /// one do.
     ///
     /// A level floor's horizon may lie within a cell: what is seen of it is as deep however narrow the cell is.
     pub(crate) fn long_side(&self, cell: &Cell) -> Option<usize> {
         /// The lengths of both halves along the one side, over those along the other. Where all depth is along one side, it is
-        /// a half.
+        /// a half. Not tuned.
         const SHORTER: f64 = 0.75;
         if !cell.is_parallel() {
             return None;

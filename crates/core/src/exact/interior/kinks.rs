@@ -210,8 +210,71 @@ impl<S: Simd> Slope<S> {
 
 #[cfg(test)]
 mod tests {
+    use fearless_simd::{Level, dispatch};
+
     use super::*;
     use crate::exact::interior::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES};
+
+    /// The error of a rule for a power of the cosine c + j/2 max(0, u − a)², and what it is said to miss.
+    fn error_of_power(exponent: f64, (lowest, jump, a): (f64, f64, f64), rule: Rule) -> [f64; 2] {
+        const STEPS: u32 = 4000;
+        let light = |u: f64| {
+            let beyond = (u - a).max(0.0);
+            libm::pow(lowest + 0.5 * jump * beyond * beyond, exponent)
+        };
+        let step = |index: u32| light((f64::from(index) + 0.5) / f64::from(STEPS) - 0.5);
+        let mean = (0..STEPS).map(step).sum::<f64>() / f64::from(STEPS);
+        let samples = POINTS[..rule.samples()].iter();
+        let sum: f64 = samples
+            .map(|sample| {
+                let weight = match rule {
+                    Rule::Star => sample.star,
+                    Rule::Grid => sample.gauss,
+                };
+                weight * light(sample.u)
+            })
+            .sum();
+        let missed = dispatch!(Level::new(), simd => {
+            let falloff = Falloff::new(exponent);
+            let steepest = f64x8::splat(simd, lowest.max(1e-100));
+            let slope = Slope {
+                linear: f64x8::splat(simd, 0.0),
+                falloff,
+                steep: falloff.of_clamped(steepest) / steepest * exponent,
+                most: 1.0,
+            };
+            let kinks = Kinks {
+                jump: f64x8::splat(simd, jump),
+                span: f64x8::splat(simd, 0.0),
+            };
+            kinks.missed(rule, &slope)[3]
+        });
+        [(sum - mean).abs(), missed]
+    }
+
+    #[test]
+    fn steep_powers_miss_no_more_at_kinks_than_they_are_said_to() {
+        for exponent in [0.2, 0.4, 0.8] {
+            for (lowest, jump) in [
+                (0.0, 0.01),
+                (0.0, 0.5),
+                (1e-4, 0.1),
+                (0.01, 0.1),
+                (0.3, 0.1),
+            ] {
+                for rule in [Rule::Star, Rule::Grid] {
+                    let places = (0..=100).map(|place| f64::from(place) / 100.0 - 0.5);
+                    let (mut worst, mut most) = (0.0_f64, 0.0);
+                    for a in places {
+                        let [error, missed] = error_of_power(exponent, (lowest, jump, a), rule);
+                        assert!(error <= missed, "{exponent} {lowest} {jump} {a} {rule:?}");
+                        (worst, most) = (worst.max(error), missed);
+                    }
+                    assert!(most < 100.0 * worst, "{exponent} {lowest} {jump} {rule:?}");
+                }
+            }
+        }
+    }
 
     /// Rules for the squares of distances on one side of lines, whose integrals are third powers of those at the upper and
     /// lower sides.

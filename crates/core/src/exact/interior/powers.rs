@@ -53,7 +53,7 @@ impl<S: Simd> Filled<'_, S> {
 /// other estimates.
 const NEAREST: f64 = 0.95;
 
-/// The middle of a range of cosines, as far as they are positive.
+/// The middle of a range of cosines; of one that comes nearer to 0, that of its part up to there.
 #[inline(always)]
 fn middle<S: Simd>(range: &CosineRange<S>) -> f64x8<S> {
     let middle = (range.highest + range.lowest) * 0.5;
@@ -89,8 +89,8 @@ impl Power {
         const OF_FOURTH: f64 = 0.0334;
         const OF_SIXTH: f64 = 0.025;
         let least = range.highest * 0.0 + f64::MIN_POSITIVE;
-        let middle = (range.highest + range.lowest).max(least);
-        let reach = (range.width() / middle).min(least + NEAREST);
+        let twice_middle = (range.highest + range.lowest).max(least);
+        let reach = (range.width() / twice_middle).min(least + NEAREST);
         let square = reach * reach;
         let rest = square * -1.0 + 1.0;
         let mut share = square * square * square / rest * (OF_SIXTH * binomial(self.0, 6).abs());
