@@ -83,7 +83,8 @@ fn zeros(a: f64, b: f64, c: f64) -> [Option<DVec2>; 2] {
     ]
 }
 
-/// The part of the edge of a shadow of a light that exists and may come as near as `around` to a point beside the light.
+/// The part of the edge of a shadow of a light that exists and may come as near as `around` to a point, as the light
+/// sees them.
 pub(super) fn of_shadow(
     shape: &Shape,
     (toward, point): (DVec3, DVec3),
@@ -99,11 +100,15 @@ pub(super) fn of_shadow(
         } => (circle, radius_sq, center),
         Shape::NearShadow(shadow) => return of_near_shadow(shadow, point, around, pieces),
         Shape::Cone {
+            cone,
             rim,
             to_center,
             outside,
             ..
-        } => return of_cone(rim, *to_center, *outside, pieces),
+        } => {
+            let near = [*to_center, point - cone.apex];
+            return of_cone(rim, near, (*outside, around), pieces);
+        }
         Shape::Side(_) | Shape::Circle(_) => return,
     };
     let middle = point - *center;
@@ -183,28 +188,55 @@ fn of_near_shadow(shadow: &NearShadow, point: DVec3, around: f64, pieces: &mut V
     }
 }
 
-/// The part of the edge of a cone's shadow that exists: ways w along the cone that meet the ball have
-/// w · a ≥ |w| √K.
-fn of_cone(rim: &Circle, to_center: DVec3, outside: f64, pieces: &mut Vec<Piece>) {
+/// The part of the edge of a cone's shadow that exists and may come as near as `around` to a point. Both the center of
+/// the ball and that point are given as seen from the apex.
+///
+/// # Source
+/// Ways w along the cone that meet the ball have w · a ≥ |w| √K. Those that come as near as r to a point p, farther away
+/// than that, have w · p ≥ |w| √(p² − r²). All w of a rim have one length.
+fn of_cone(
+    rim: &Circle,
+    [to_center, to_point]: [DVec3; 2],
+    (outside, around): (f64, f64),
+    pieces: &mut Vec<Piece>,
+) {
     let length = (rim.middle.length_squared() + rim.right.length_squared()).sqrt();
-    let least = length * outside.max(0.0).sqrt();
-    let beyond = |way: DVec3| way.dot(to_center) - least;
-    let (a, b) = (rim.right.dot(to_center), rim.up.dot(to_center));
-    let c = beyond(rim.middle);
-    let mut roots = [DVec2::ZERO; 2];
-    let mut count = 0;
-    if let [Some(one), Some(other)] = zeros(a, b, c) {
-        roots = [one, other];
-        count = 2;
-    } else if c < 0.0 || c.is_nan() {
-        return;
+    let distance = to_point.length();
+    let beyond = (distance - around).max(0.0) * (distance + around);
+    // Both are positive where the edge exists and comes so near.
+    let limits = [(to_center, outside.max(0.0)), (to_point, beyond)].map(|(to, square)| {
+        let least = length * square.sqrt();
+        [
+            rim.middle.dot(to) - least,
+            rim.right.dot(to),
+            rim.up.dot(to),
+        ]
+    });
+    // From among the points no way leads past them.
+    let limits = &limits[..1 + usize::from(beyond > 0.0)];
+    let mut roots = [DVec2::ZERO; 4];
+    let (mut count, mut of_ball) = (0, 0);
+    for (index, &[c, a, b]) in limits.iter().enumerate() {
+        if let [Some(one), Some(other)] = zeros(a, b, c) {
+            roots[count] = one;
+            roots[count + 1] = other;
+            count += 2;
+        } else if c < 0.0 || c.is_nan() {
+            return;
+        }
+        if index == 0 {
+            of_ball = count;
+        }
     }
+    let mut turning = [DVec2::NAN; 2];
+    turning[..of_ball].copy_from_slice(&roots[..of_ball]);
     let first = pieces.len();
-    between(&mut roots[..count], pieces, |e| beyond(rim.at(e)) > 0.0);
-    // Where it ends it turns back.
+    between(&mut roots[..count], pieces, |e| {
+        limits.iter().all(|[c, a, b]| c + a * e.x + b * e.y > 0.0)
+    });
+    // Where it ends because it does not exist any more, it turns back.
     for piece in &mut pieces[first..] {
-        let is_root = |e: DVec2| roots[..count].contains(&e);
-        piece.roots = piece.ends.map(is_root);
+        piece.roots = piece.ends.map(|e| turning.contains(&e));
     }
 }
 
