@@ -287,8 +287,10 @@ impl<'world> Visibility<'world> {
     }
 
     /// Says whether something `holds` for any of the spheres that may keep the light with this index
-    /// from points of space that lie within `around` of `points` or between them: each is asked once,
-    /// those sooner, by and large, that lie nearer, until it does.
+    /// from points of space that lie within `around` of `points` or between them, and outside of the spheres: each is
+    /// asked once, those sooner, by and large, that lie nearer, until it does.
+    ///
+    /// What lies outside of a sphere is shaded only if it lies lower than the sphere's center.
     pub(crate) fn any_occluder(
         &self,
         light: usize,
@@ -298,8 +300,9 @@ impl<'world> Visibility<'world> {
     ) -> bool {
         let occluders = self.light(light).occluders();
         let heights = points.iter().map(|&point| occluders.height(point));
-        let lowest = heights.fold(f64::INFINITY, f64::min) - around;
-        occluders.any_within(points, around, lowest, holds)
+        let lowest = heights.fold(f64::INFINITY, f64::min) - 2.0 * around;
+        let lowest_top = lowest + self.extent.smallest_radius;
+        occluders.any_within(points, around, lowest_top.max(lowest + around), holds)
     }
 
     /// The largest finite radius or coordinate of a center as seen from the viewpoint.

@@ -131,7 +131,8 @@ impl Subject {
     /// The distance of a pixel's light from the true value, and the error of this distance.
     ///
     /// If a pixel seems to have a larger error than allowed, it is also compared with the sum of its quarters: details
-    /// that lines through the pixel miss are hardly missed in the quarters as well.
+    /// that lines through the pixel miss are hardly missed in the quarters as well. If a million points side with the
+    /// pixel, the integrator is uncertain by its distance from them: bumps like pixels beside contours are hard for it.
     pub(super) fn error_of(
         &self,
         (col, row): (u32, u32),
@@ -140,6 +141,11 @@ impl Subject {
     ) -> Option<(f64, f64)> {
         /// The uncertainty that is small enough, as a fraction of the allowed error.
         const FINE: f64 = 0.02;
+        /// Points on a side of the pixel, the distance from their mean that is far more than its error, and how many times
+        /// as near to it a value lies with which they side.
+        const POINTS: u32 = 1000;
+        const FAR: f64 = 1e-3;
+        const SIDES: f64 = 4.0;
         let fine = FINE * allowed;
         let whole = self.truth(fine, |judge, _| judge.pixel(col, row))?;
         let error = |(exact, _): (DVec4, f64)| (value - exact).abs().max_element();
@@ -148,11 +154,24 @@ impl Subject {
         }
         let parts = self.truth(fine, |judge, _| judge.pixel_by_quarters(col, row))?;
         let apart = (whole.0 - parts.0).abs().max_element();
-        let uncertain = if apart > whole.1 + parts.1 {
+        let mut uncertain = if apart > whole.1 + parts.1 {
             apart + parts.1
         } else {
             whole.1.min(parts.1)
         };
+        if error(parts) > allowed + uncertain && self.moments.is_none() {
+            let points = self.truth(fine, |judge, _| Truth {
+                value: judge.midpoints(col, row, POINTS),
+                error: 0.0,
+                has_edge: true,
+                lines: 0,
+            })?;
+            let from_points = |value: DVec4| (value - points.0).abs().max_element();
+            let of_parts = from_points(parts.0);
+            if of_parts > FAR && SIDES * from_points(value) < of_parts {
+                uncertain = uncertain.max(of_parts);
+            }
+        }
         Some((error(parts), uncertain))
     }
 

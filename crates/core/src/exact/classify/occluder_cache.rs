@@ -234,6 +234,8 @@ impl OccluderCache {
         let spheres = scene.world.spheres();
         let own = spheres[sphere];
         let mut mask = ShadeMask::new(self.level, &patch, of_light);
+        let heights = patch.ends.map(|end| end.dot(of_light.toward));
+        let lowest = heights[0].min(heights[1]) - 2.0 * around;
         let is_dark = scene
             .visibility
             .any_occluder(of_light.index, &points, around, |candidate| {
@@ -244,6 +246,10 @@ impl OccluderCache {
                 }
                 let (center, radius) = scene.center(candidate);
                 let occluder = Occluder::new(center, radius, of_light);
+                // Outside of a sphere only what lies lower than its center is shaded.
+                if occluder.height + 2.0 * occluder.slack < lowest {
+                    return false;
+                }
                 self.occluders.push(&occluder);
                 self.spheres.push(candidate as u32);
                 if !is_small {
