@@ -120,10 +120,12 @@ pub(crate) fn is_beyond_a_part(pairs: u64) -> bool {
 /// The share of the budget that finding out what a part of a pixel sees may take.
 const OF_CROWD: u64 = 32;
 
-/// Returns whether so many pairs of spheres, or tests, are more than what a part of a pixel sees may be found out with:
-/// its quarters see fewer spheres each.
+/// The tests with which it may be found out what a part of a pixel sees.
+pub(crate) const OF_A_CROWD: u64 = MOST / OF_CROWD;
+
+/// Returns whether so many pairs of spheres, or tests, are more than that: quarters of the part see fewer spheres each.
 pub(crate) fn is_beyond_a_crowd(pairs: u64) -> bool {
-    pairs > MOST / OF_CROWD
+    pairs > OF_A_CROWD
 }
 
 /// The spheres that a pixel may see of which more are not told apart: each of its parts would ask all of them.

@@ -23,6 +23,8 @@ pub(crate) struct PointOccluders<'world> {
     spheres: &'world [Sphere],
     hierarchy: Arc<Hierarchy>,
     position: DVec3,
+    /// The least radius of all spheres.
+    smallest_radius: f64,
     /// The spheres that the light is inside of, or on whose surface it lies.
     enclosing: Arc<[usize]>,
     /// The instructions that the processor has.
@@ -40,6 +42,13 @@ pub(crate) struct Beam {
     /// The sine of half the angle at the apex; a ball around the apex has none.
     sine: f64,
     cosine: f64,
+}
+
+/// What a light is sought for: points within a distance of the middle of a beam's end, seen by an eye.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before {
+    pub(crate) around: f64,
+    pub(crate) eye: DVec3,
 }
 
 /// The relative slack of lengths: far more than rounding moves them.
@@ -84,12 +93,14 @@ impl<'world> PointOccluders<'world> {
         spheres: &'world [Sphere],
         hierarchy: Arc<Hierarchy>,
         position: DVec3,
+        smallest_radius: f64,
     ) -> Self {
         Self {
             enclosing: enclosing(spheres, position).into(),
             spheres,
             hierarchy,
             position,
+            smallest_radius,
             level: Level::new(),
         }
     }
@@ -102,11 +113,27 @@ impl<'world> PointOccluders<'world> {
     /// Says whether something holds for any sphere that may reach into a beam from the light, but for those around the
     /// light; each is asked once.
     pub(crate) fn any_in(&self, beam: &Beam, mut holds: impl FnMut(usize) -> bool) -> bool {
-        self.any_of(beam, &mut holds)
+        self.any_of(beam, None, &mut holds)
     }
 
-    fn any_of(&self, beam: &Beam, holds: &mut dyn FnMut(usize) -> bool) -> bool {
-        dispatch!(self.level, simd => self.any_lanes(simd, beam, holds))
+    /// The same of spheres that may keep the light from points outside of them which lie no farther than `around` from the
+    /// middle of the beam's end, and of those around the eye. It is asked for some others, too.
+    pub(crate) fn any_before(
+        &self,
+        beam: &Beam,
+        before: &Before,
+        mut holds: impl FnMut(usize) -> bool,
+    ) -> bool {
+        self.any_of(beam, Some(before), &mut holds)
+    }
+
+    fn any_of(
+        &self,
+        beam: &Beam,
+        before: Option<&Before>,
+        holds: &mut dyn FnMut(usize) -> bool,
+    ) -> bool {
+        dispatch!(self.level, simd => self.any_lanes(simd, beam, before, holds))
     }
 
     #[inline(always)]
@@ -114,10 +141,17 @@ impl<'world> PointOccluders<'world> {
         &self,
         simd: S,
         beam: &Beam,
+        before: Option<&Before>,
         holds: &mut dyn FnMut(usize) -> bool,
     ) -> bool {
         self.hierarchy.any(
-            |boxes| reaching_boxes(simd, boxes, beam),
+            |boxes| {
+                let mut tested = reaching_boxes(simd, boxes, beam);
+                if let Some(before) = before {
+                    tested.may &= !behind(simd, boxes, beam, before, self.smallest_radius);
+                }
+                tested
+            },
             |number| {
                 let reaching =
                     reaching_spheres(simd, &self.hierarchy.group(number, self.spheres), beam);
@@ -198,6 +232,45 @@ fn reaching_boxes<S: Simd>(simd: S, boxes: &Boxes, beam: &Beam) -> BoxTest {
         may: reaching,
         keys: begin.into(),
     }
+}
+
+/// The boxes, as bits, all of whose spheres lie behind the points that a light is sought for, and not around the eye.
+///
+/// # Source
+/// A sphere with the center c keeps a light at a from a point p outside of it only where (c − p) · (a − p) > 0. With m in
+/// the middle of the points, d = a − m, and all p within r of m, that is at most (c − m) · d + r (|c − m| + |d|) + r².
+#[inline(always)]
+fn behind<S: Simd>(
+    simd: S,
+    boxes: &Boxes,
+    beam: &Beam,
+    before: &Before,
+    smallest_radius: f64,
+) -> u8 {
+    if beam.axis == DVec3::ZERO {
+        return 0;
+    }
+    let zero = f64x8::splat(simd, 0.0);
+    let toward = beam.axis * -beam.length;
+    let middle = beam.apex - toward;
+    let (mut highest, mut distance_sq, mut half_sq) = (zero, zero, zero);
+    let mut has_eye = 0xff;
+    for axis in 0..3 {
+        let low = doubles(simd, &boxes.low[axis]);
+        let high = doubles(simd, &boxes.high[axis]);
+        let half = (high - low) * 0.5;
+        let center = (low + high) * 0.5 - middle[axis];
+        let of_centers = (half - smallest_radius).max(zero);
+        highest += center * toward[axis] + of_centers * toward[axis].abs();
+        distance_sq += center * center;
+        half_sq += half * half;
+        let eye = before.eye[axis];
+        has_eye &= (low.simd_le(eye) & high.simd_ge(eye)).to_bitmask() as u8;
+    }
+    let distance = distance_sq.sqrt() + half_sq.sqrt() + beam.length;
+    let around = before.around + distance * SLACK;
+    let highest = highest + around * (distance + around);
+    highest.simd_lt(0.0).to_bitmask() as u8 & !has_eye
 }
 
 /// The spheres of a group that may reach into a beam, as bits; places without a sphere may seem to.

@@ -173,10 +173,12 @@ impl<'world> Visibility<'world> {
                     let occluders = Occluders::new(self.spheres, hierarchy, light.toward());
                     Occlusion::Discs(DiscCache::new(occluders))
                 }
-                Light::Point(light) => {
-                    let occluders = PointOccluders::new(self.spheres, hierarchy, light.position());
-                    Occlusion::Point(occluders)
-                }
+                Light::Point(light) => Occlusion::Point(PointOccluders::new(
+                    self.spheres,
+                    hierarchy,
+                    light.position(),
+                    self.extent.smallest_radius,
+                )),
             })
         };
         let outer = self.outer.as_deref().map(|outer| OuterSpheres {

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::occluders::{Occluder, Occluders, eight};
 use super::patch::{Patch, distance_from_cone};
 use super::shade_mask::ShadeMask;
+use super::ways::is_behind;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::scene::{InCamera, Light};
@@ -15,7 +16,7 @@ use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::f64x8;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
-use crate::search::point_occluders::Beam;
+use crate::search::point_occluders::{Beam, Before};
 
 /// The radius in pixels of spheres whose occluders are sought for all of the sphere, not for what a tile
 /// sees of it, where they are smaller; which is how pixels stay the same in any tile. A small sphere lies
@@ -180,14 +181,28 @@ impl OccluderCache {
         if let (Some(occluders), Some(near)) = (occluders, &of_light.near) {
             let apex = scene.in_world(near.position);
             let beam = Beam::new(apex, scene.in_world(middle), around * WIDER);
-            occluders.any_in(&beam, |candidate| {
+            let before = Before {
+                around: MARGIN * around,
+                eye: scene.in_world(DVec3::ZERO),
+            };
+            let is_parallel = self.tile.is_parallel();
+            let add = |candidate: usize| {
                 self.tests += 1;
                 self.units += UNITS_OF_OCCLUDER;
-                if candidate != sphere && spheres[candidate] != own {
+                let (center, radius) = scene.center(candidate);
+                let is_behind = is_behind(center, near.position, (middle, before.around));
+                let keeps = !is_behind || may_begin_inside(is_parallel, center, radius);
+                if keeps && candidate != sphere && spheres[candidate] != own {
                     self.spheres.push(candidate as u32);
                 }
                 false
-            });
+            };
+            // Parallel rays begin in a plane, where no box says which spheres they begin inside of.
+            if is_parallel {
+                occluders.any_in(&beam, add);
+            } else {
+                occluders.any_before(&beam, &before, add);
+            }
         }
         self.spheres[first..].sort_unstable();
         // Both lists have the same places.
@@ -369,6 +384,22 @@ impl OccluderCache {
         }
         false
     }
+}
+
+/// The times as far as what a tile sees of a sphere that occluders are sought for: what a pixel sees of it lies inside, and
+/// so does the ball around that. So a pixel has the same occluders in any tile.
+const MARGIN: f64 = 2.1;
+
+/// Returns whether rays from the eye, or parallel rays from its plane, may begin inside of a sphere.
+fn may_begin_inside(is_parallel: bool, center: DVec3, radius: f64) -> bool {
+    /// Far more than rounding.
+    const WIDER: f64 = 1.0 + 1e-9;
+    let distance = if is_parallel {
+        center.z.abs()
+    } else {
+        center.length()
+    };
+    distance <= radius * WIDER
 }
 
 #[cfg(test)]

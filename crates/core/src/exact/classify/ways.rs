@@ -12,7 +12,7 @@ use super::patch::Patch;
 use super::reach::Reach;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::shadow::{Caster, Cone};
-use crate::exact::budget::is_beyond_a_crowd;
+use crate::exact::budget::{OF_A_CROWD, is_beyond_a_crowd};
 use crate::exact::scene::{InCamera, Light};
 use crate::light::reflection::NearLight;
 use crate::model::camera::Projection;
@@ -40,8 +40,7 @@ impl Contents {
         if let Some(patch) = patch {
             let in_camera = &scene.lights[light];
             if cache.is_exhausted() {
-                self.is_crowded = true;
-                return Reach::Past(first..first);
+                return self.of_exhausted_tile();
             }
             let Some(range) = cache.occluders(scene, active.sphere, light) else {
                 return Reach::Nowhere;
@@ -91,6 +90,7 @@ impl Contents {
     /// Adds a caster to those from `first` on, of casters with the same shadow only the one nearest to the light. Returns
     /// by how many roundoffs of the numbers that it is computed from its edge may be off.
     fn cast(&mut self, first: usize, caster: Caster, light: &Light) -> f64 {
+        self.tests += ((self.occluders.len() - first) / PAIRS_OF_A_TEST) as u64;
         let mut known = self.occluders[first..].iter_mut();
         let Some(known) = known.find(|known| has_same_shadow(known, &caster)) else {
             self.occluders.push(caster);
@@ -100,6 +100,14 @@ impl Contents {
             *known = caster;
         }
         ALIKE
+    }
+
+    /// The way of a light of which nothing is known any more, whatever parts of the pixel are looked at.
+    fn of_exhausted_tile(&mut self) -> Reach {
+        self.is_crowded = true;
+        self.tests += OF_A_CROWD;
+        let first = self.occluders.len();
+        Reach::Past(first..first)
     }
 
     /// Counts the shadow edges that were held against each other.
@@ -127,21 +135,19 @@ impl Contents {
             let (middle, around) = patch.ball();
             let beam = Beam::new(near.position, middle, around);
             if cache.is_exhausted() {
-                self.is_crowded = true;
-                return Reach::Past(first..first);
+                return self.of_exhausted_tile();
             }
             let range = cache.occluders_of_near(scene, active.sphere, light);
             cache.tests += range.len() as u64;
             let tests = (range.len() / WAYS_OF_A_TEST) as u64;
-            // As if there were as many for each of the spheres.
+            self.tests += tests;
+            // As if there were as many for each of the spheres. The parts of the cell have as many, too.
             if is_beyond_a_crowd(self.tests + tests * self.active.len() as u64) {
                 self.is_crowded = true;
                 return Reach::Past(first..first);
             }
-            self.tests += tests;
-            let is_many = range.len() > MANY;
             for index in range {
-                if self.has_too_many_curves() {
+                if self.has_too_many_curves() || is_beyond_a_crowd(self.tests) {
                     self.is_crowded = true;
                     break;
                 }
@@ -161,7 +167,7 @@ impl Contents {
                 if self.begins_inside(cell, (sphere, &ball)) {
                     return Reach::Nowhere;
                 }
-                if is_many && is_behind(center, near.position, (middle, around)) {
+                if is_behind(center, near.position, (middle, around)) {
                     continue;
                 }
                 let caster = in_camera.caster(center, radius);
@@ -190,16 +196,13 @@ impl Contents {
     }
 }
 
-/// Occluders from which on it is asked whether they lie behind what they may shade: fewer have few edges.
-const MANY: usize = 64;
-
 /// Returns whether a sphere lies behind all that is within `around` of a point and outside of the sphere, seen from a
 /// point light: it shades nothing of that.
 ///
 /// # Source
 /// Outside of the sphere a way p + t (a − p) to the light at a meets it only where (c − p) · (a − p) > 0, as it comes
 /// nearer to the center at first. By Thales that is where p lies in the ball whose diameter goes from a to c.
-fn is_behind(center: DVec3, light: DVec3, (middle, around): (DVec3, f64)) -> bool {
+pub(super) fn is_behind(center: DVec3, light: DVec3, (middle, around): (DVec3, f64)) -> bool {
     let radius = 0.5 * (light - center).length();
     let distance = (middle - 0.5 * (light + center)).length();
     let slack = GEOMETRY_SLACK * (light.length() + center.length() + middle.length());

@@ -52,7 +52,7 @@ fn a_light_is_hidden_where_surfaces_lie_between() {
         let spheres: Vec<Sphere> = (0..30).map(|_| sphere(&mut random)).collect();
         let hierarchy = Arc::new(Hierarchy::new(&spheres));
         let position = random.point() * 2.0;
-        let occluders = PointOccluders::new(&spheres, hierarchy, position);
+        let occluders = PointOccluders::new(&spheres, hierarchy, position, 0.0);
         for (index, own) in spheres.iter().enumerate() {
             let point = own.center() + random.point().normalize() * own.radius();
             let has_light = own.center().distance(position) < own.radius();
