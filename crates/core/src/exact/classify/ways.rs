@@ -159,15 +159,14 @@ impl Contents {
                 }
                 let ball = scene.ball(sphere);
                 // What rays that begin inside of it see lies inside, too.
-                if self.begins_outside(cell, (sphere, &ball))
-                    && is_above(&ball, near.position, (middle, around))
-                {
+                let begins_outside = self.begins_outside(cell, (sphere, &ball));
+                if begins_outside && is_above(&ball, near.position, (middle, around)) {
                     continue;
                 }
                 if self.begins_inside(cell, (sphere, &ball)) {
                     return Reach::Nowhere;
                 }
-                if is_behind(center, near.position, (middle, around)) {
+                if begins_outside && is_behind(center, near.position, (middle, around)) {
                     continue;
                 }
                 let caster = in_camera.caster(center, radius);
@@ -201,12 +200,12 @@ impl Contents {
 ///
 /// # Source
 /// Outside of the sphere a way p + t (a − p) to the light at a meets it only where (c − p) · (a − p) > 0, as it comes
-/// nearer to the center at first. By Thales that is where p lies in the ball whose diameter goes from a to c.
+/// nearer to the center at first. By Thales p lies outside of the ball whose diameter goes from a to c there.
 pub(super) fn is_behind(center: DVec3, light: DVec3, (middle, around): (DVec3, f64)) -> bool {
     let radius = 0.5 * (light - center).length();
     let distance = (middle - 0.5 * (light + center)).length();
     let slack = GEOMETRY_SLACK * (light.length() + center.length() + middle.length());
-    distance > radius + around + slack
+    distance + around + slack < radius
 }
 
 /// Returns whether no way from a point light to what lies within `around` of a point and outside of a large ball passes
@@ -267,4 +266,39 @@ fn hides_all_near(ball: &Ball, cone: &Cone, radius: f64) -> bool {
     far - near > FARTHER * ball.radius
         && (own * near - cone.axis * far).length() <= ALIKE * far * near
         && (ball.radius * near - radius * far).abs() <= ALIKE * far * near
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spheres_behind_a_point_are_met_by_no_way_to_the_light() {
+        let place = |index: u32, step: f64| {
+            let turn = f64::from(index) * step;
+            (turn - turn.floor()) * 8.0 - 4.0
+        };
+        let mut behind = 0;
+        for index in 0..4000 {
+            let light = DVec3::new(place(index, 0.137), 6.0, place(index, 0.731));
+            let point = DVec3::new(
+                place(index, 0.319),
+                place(index, 0.457),
+                place(index, 0.593),
+            );
+            let (center, around) = (DVec3::ZERO, 0.05);
+            let radius = (point.length() - around) * 0.999;
+            if !is_behind(center, light, (point, around)) {
+                continue;
+            }
+            behind += 1;
+            for side in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_ONE.normalize()] {
+                let from = point + side * around;
+                let way = light - from;
+                let share = (-from.dot(way) / way.length_squared()).clamp(0.0, 1.0);
+                assert!((from + way * share).length() > radius, "{point} {light}");
+            }
+        }
+        assert!((200..3000).contains(&behind), "{behind}");
+    }
 }
