@@ -12,6 +12,7 @@ mod hardness;
 mod hidden;
 pub(crate) mod magnitude;
 mod mask;
+mod no_shade;
 pub(crate) mod occluder_cache;
 pub(crate) mod occluders;
 mod outlines;

@@ -5,10 +5,10 @@ use std::ops::Range;
 use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
+use super::no_shade::{is_behind, may_begin_inside};
 use super::occluders::{Occluder, Occluders, eight};
 use super::patch::{Patch, distance_from_cone};
 use super::shade_mask::ShadeMask;
-use super::ways::is_behind;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::scene::{InCamera, Light};
@@ -389,18 +389,6 @@ impl OccluderCache {
 /// The times as far as what a tile sees of a sphere that occluders are sought for: what a pixel sees of it lies inside, and
 /// so does the ball around that. So a pixel has the same occluders in any tile.
 const MARGIN: f64 = 2.1;
-
-/// Returns whether rays from the eye, or parallel rays from its plane, may begin inside of a sphere.
-fn may_begin_inside(is_parallel: bool, center: DVec3, radius: f64) -> bool {
-    /// Far more than rounding.
-    const WIDER: f64 = 1.0 + 1e-9;
-    let distance = if is_parallel {
-        center.z.abs()
-    } else {
-        center.length()
-    };
-    distance <= radius * WIDER
-}
 
 #[cfg(test)]
 impl OccluderCache {
