@@ -302,6 +302,7 @@ impl<'world> Visibility<'world> {
     ) -> bool {
         let occluders = self.light(light).occluders();
         let heights = points.iter().map(|&point| occluders.height(point));
+        // A pixel asks for points as far around what it sees, and counts them so much lower.
         let lowest = heights.fold(f64::INFINITY, f64::min) - 2.0 * around;
         let lowest_top = lowest + self.extent.smallest_radius;
         occluders.any_within(points, around, lowest_top.max(lowest + around), holds)

@@ -40,15 +40,16 @@ fn is_between(sphere: &Sphere, from: DVec3, to: DVec3) -> bool {
     inside(from) != inside(to) || inside(nearest) && !(inside(from) && inside(to))
 }
 
+fn sphere(random: &mut Random) -> Sphere {
+    let radius = 0.05 + 0.5 * random.number() * random.number();
+    Sphere::new(random.point() * 2.0, radius).unwrap()
+}
+
 #[test]
 fn a_light_is_hidden_where_surfaces_lie_between() {
     let mut random = Random(9);
     let (mut dark, mut asked) = (0, 0);
     for _ in 0..300 {
-        let sphere = |random: &mut Random| {
-            let radius = 0.05 + 0.5 * random.number() * random.number();
-            Sphere::new(random.point() * 2.0, radius).unwrap()
-        };
         let spheres: Vec<Sphere> = (0..30).map(|_| sphere(&mut random)).collect();
         let hierarchy = Arc::new(Hierarchy::new(&spheres));
         let position = random.point() * 2.0;
@@ -70,4 +71,54 @@ fn a_light_is_hidden_where_surfaces_lie_between() {
         dark > asked / 10 && dark < asked * 9 / 10,
         "{dark} of {asked}"
     );
+}
+
+#[test]
+fn spheres_that_hide_a_light_are_asked_before_points() {
+    let mut random = Random(11);
+    let (mut hiding, mut left_out) = (0, 0);
+    for case in 0..400 {
+        // Scattered, and nearly coincident ones.
+        let nearly = |random: &mut Random| Sphere::new(random.point() * 0.02, 1.0).unwrap();
+        let one = |_| match case % 2 {
+            0 => sphere(&mut random),
+            _ => nearly(&mut random),
+        };
+        let spheres: Vec<Sphere> = (0..40).map(one).collect();
+        let hierarchy = Arc::new(Hierarchy::new(&spheres));
+        let radii = spheres.iter().map(Sphere::radius);
+        let smallest = radii.fold(f64::INFINITY, f64::min);
+        let position = random.point() * 6.0;
+        let occluders = PointOccluders::new(&spheres, hierarchy, position, smallest);
+        let (middle, around) = (random.point() * 2.0, 0.02);
+        let beam = Beam::new(position, middle, around);
+        let before = Before {
+            around,
+            eye: DVec3::splat(1e3),
+        };
+        let [mut all, mut asked] = [vec![false; spheres.len()], vec![false; spheres.len()]];
+        occluders.any_in(&beam, |index| {
+            all[index] = true;
+            false
+        });
+        occluders.any_before(&beam, &before, |index| {
+            asked[index] = true;
+            false
+        });
+        left_out += (0..spheres.len())
+            .filter(|&index| all[index] && !asked[index])
+            .count();
+        for side in [DVec3::ZERO, DVec3::X, DVec3::NEG_Y, DVec3::Z] {
+            let point = middle + side * around;
+            for (index, sphere) in spheres.iter().enumerate() {
+                let is_outside = point.distance(sphere.center()) > sphere.radius();
+                let is_around = position.distance(sphere.center()) <= sphere.radius();
+                if is_outside && !is_around && is_between(sphere, point, position) {
+                    hiding += 1;
+                    assert!(asked[index], "{sphere:?} {point} {position}");
+                }
+            }
+        }
+    }
+    assert!(hiding > 100 && left_out > 100, "{hiding} {left_out}");
 }
