@@ -14,7 +14,7 @@ pub(crate) const FEWEST: usize = 64;
 
 /// The units that crowds may cost, for each pixel of a picture, and the pixels that a smaller picture counts as: in one
 /// of these, 600 × 400, crowds cost about 10 s on one thread, beside what finds them.
-const OF_PIXEL: u64 = 1536;
+const OF_PIXEL: u64 = 1280;
 const LEAST_PIXELS: u64 = 240_000;
 
 /// The share of a tile's units that one pixel may take.

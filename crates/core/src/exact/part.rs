@@ -45,6 +45,15 @@ impl Part {
             ..*self
         }
     }
+
+    /// The same, which claims as much more as another one by smaller parts is away: the larger claim of these is then no
+    /// argument for this one.
+    pub(crate) fn doubted_by(&self, finer: &Self) -> Self {
+        Self {
+            error: self.error + self.distance_from(finer),
+            ..*self
+        }
+    }
 }
 
 /// The reason for which a rung leaves a pixel, or a part of one, to the next rung.

@@ -13,6 +13,9 @@ use super::subject::Subject;
 /// The powers of two by which lengths and light are multiplied.
 const UNITS: [(i32, i32); 5] = [(-12, 0), (-33, 0), (17, 0), (0, -40), (0, 34)];
 
+/// Claims below this may have fewer digits in another unit of light: the least number that has all of them, times 2⁴⁰.
+const ALL_DIGITS: f64 = (1_u64 << 40) as f64 * f64::MIN_POSITIVE;
+
 /// Prints each scene with a picture that differs in another unit.
 pub(super) fn search(
     family: &Family,
@@ -56,8 +59,9 @@ fn difference(draft: &Draft, tolerances: &[f64]) -> Result<Option<String>, Strin
                 continue;
             };
             let is_other = |&(col, row): &(u32, u32)| {
+                let claims = [&one, &other].map(|it| it.claimed(col, row));
                 one.value(col, row) != other.value(col, row)
-                    || one.claimed(col, row) != other.claimed(col, row)
+                    || claims[0] != claims[1] && claims.into_iter().any(|it| it > ALL_DIGITS)
             };
             let place = one.places().find(is_other);
             let units = format!("{method:?}, lengths * 2^{length}, light * 2^{light}");

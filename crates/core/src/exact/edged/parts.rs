@@ -103,6 +103,7 @@ impl Workspace {
                 left.push(subcell);
             }
         }
+        let whole = whole.doubted_by(&best);
         if whole.error < best.error {
             best = whole;
         }

@@ -2,7 +2,7 @@
 
 use super::Exact;
 use super::range::OF_SPHERE;
-use crate::exact::crowd::CrowdWork;
+use crate::exact::crowd::{CrowdWork, FEWEST};
 use crate::model::color::Color;
 use crate::model::light::Light;
 use crate::model::roughness::PixelKey;
@@ -10,13 +10,31 @@ use crate::numeric::bernstein::{error_of_mean, least_error};
 use crate::picture::pixel::{Evidence, Pixel, Status};
 use crate::sampling::Pairs;
 
-/// Strata on a side of a pixel at the first look, and at most.
+/// Strata on a side of a pixel at the first look.
 const FIRST: u32 = 32;
-const MOST: u32 = 512;
 
-/// The tests that the most strata of a pixel may take, tens of milliseconds: enough for them over three spheres under a
-/// lamp, or under some suns. The looks before them take a third of it; the first look is always taken.
-const MOST_TESTS: u64 = 1 << 25;
+/// What a pixel may cost.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    /// The most strata on a side.
+    strata: u32,
+    /// The tests that these may take. The looks before them take a third of it; the first look is always taken.
+    tests: u64,
+}
+
+/// Tens of milliseconds: enough tests for the most strata over three spheres under a lamp, or under some suns.
+const ORDINARY: Limits = Limits {
+    strata: 512,
+    tests: 1 << 25,
+};
+
+/// Where bumps may be seen. With bumps finer than pixels, edges are so many that nothing but samples meets 1e-4, and all
+/// pixels are alike. 16 times as many as 512 × 512 gained nothing more (`cargo truth hunt --family "bumps finer than
+/// pixels"`).
+const BUMPY: Limits = Limits {
+    strata: 1024,
+    tests: 1 << 27,
+};
 
 /// The tests that a light takes, whose ray may meet anything.
 const OF_SUN: u64 = 4;
@@ -36,15 +54,19 @@ pub(super) struct Scattering {
     of_sample: u64,
     /// The most strata on a side.
     most: u32,
+    /// Whether they count as work on a crowd.
+    is_crowd: bool,
 }
 
-/// The most strata on a side that samples of so many tests allow.
-fn most_strata(tests: u64) -> u32 {
-    let mut most = MOST;
-    while most > FIRST && samples(most) * tests > MOST_TESTS {
-        most /= 2;
+impl Limits {
+    /// The most strata on a side that samples of so many tests allow.
+    fn most_strata(self, tests: u64) -> u32 {
+        let mut most = self.strata;
+        while most > FIRST && samples(most) * tests > self.tests {
+            most /= 2;
+        }
+        most
     }
-    most
 }
 
 /// The error that may be expected of the most strata, from that of so many on a side.
@@ -86,13 +108,23 @@ impl Exact<'_> {
         };
         let lights = self.index.visibility.lights();
         let of_spheres = OF_SPHERE * candidates.len() as u64;
-        let most = most_strata(of_spheres + lights.iter().map(of_light).sum::<u64>());
+        let world = self.groups[0].scene.world;
+        let mut materials = candidates.iter().map(|&sphere| world.material(sphere));
+        let is_bumpy = materials.any(|material| material.roughness.is_some());
+        let is_crowd = candidates.len() > FEWEST || most_occluders > FEWEST;
+        let limits = if is_bumpy && !is_crowd {
+            BUMPY
+        } else {
+            ORDINARY
+        };
+        let most = limits.most_strata(of_spheres + lights.iter().map(of_light).sum::<u64>());
         let may_meet = least_error(range, samples(most) as f64) < self.tolerance;
         let is_affordable = !is_of_moment && !self.are_costly(candidates);
         (may_meet && is_affordable).then_some(Scattering {
             range,
             of_sample: of_spheres + most_occluders as u64,
             most,
+            is_crowd: is_crowd || !is_bumpy,
         })
     }
 
@@ -111,7 +143,7 @@ impl Exact<'_> {
         count: &mut u64,
     ) -> Option<Pixel> {
         let mut side = FIRST;
-        while crowds.affords(samples(side) * of.of_sample) {
+        while !of.is_crowd || crowds.affords(samples(side) * of.of_sample) {
             let pairs = self.samples.scattered(key, side);
             *count += samples(side);
             let error = self.error_of_pairs(&pairs, of.range);
@@ -150,16 +182,19 @@ mod tests {
 
     #[test]
     fn strata_cost_no_more_than_a_pixel_may() {
-        for tests in 1..2000 {
-            let most = most_strata(tests);
-            assert!(samples(most) * tests <= MOST_TESTS || most == FIRST);
-            let is_enough = most == MOST || samples(2 * most) * tests > MOST_TESTS;
-            assert!(is_enough && most.is_multiple_of(2), "{tests}: {most}");
+        for limits in [ORDINARY, BUMPY] {
+            for tests in 1..2000 {
+                let most = limits.most_strata(tests);
+                assert!(samples(most) * tests <= limits.tests || most == FIRST);
+                let is_enough = most == limits.strata || samples(2 * most) * tests > limits.tests;
+                assert!(is_enough && most.is_multiple_of(2), "{tests}: {most}");
+            }
         }
         // Three spheres under a lamp, and under four suns, each with three occluders.
-        assert_eq!(most_strata(3 * OF_SPHERE + OF_LAMP + 3), MOST);
-        assert_eq!(most_strata(3 * OF_SPHERE + 4 * (OF_SUN + 3)), MOST);
+        let most = ORDINARY.strata;
+        assert_eq!(ORDINARY.most_strata(3 * OF_SPHERE + OF_LAMP + 3), most);
+        assert_eq!(ORDINARY.most_strata(3 * OF_SPHERE + 4 * (OF_SUN + 3)), most);
         // Three spheres under twenty lamps.
-        assert!(most_strata(3 * OF_SPHERE + 20 * OF_LAMP) < MOST);
+        assert!(ORDINARY.most_strata(3 * OF_SPHERE + 20 * OF_LAMP) < most);
     }
 }
