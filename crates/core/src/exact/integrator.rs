@@ -1,6 +1,7 @@
 //! Averages over pixels to a tolerance, under any number of lights.
 
 use std::num::NonZeroU32;
+use std::sync::OnceLock;
 
 use fearless_simd::{Level, dispatch};
 
@@ -51,6 +52,8 @@ pub(crate) struct Exact<'scene> {
     samples: Supersampling<'scene>,
     few_samples: Supersampling<'scene>,
     blocks: CrowdBlocks,
+    /// The least and the most light that any pixel may show, once a crowd asks.
+    range: OnceLock<[Color; 2]>,
     level: Level,
 }
 
@@ -127,6 +130,7 @@ impl<'scene> Exact<'scene> {
             few_samples: Supersampling::new(world, view, index, FEW_SAMPLES, alpha),
             blocks: CrowdBlocks::new(view.width, view.height),
             index: index.clone(),
+            range: OnceLock::new(),
             level: Level::new(),
         }
     }

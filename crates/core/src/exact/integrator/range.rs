@@ -105,12 +105,22 @@ impl Exact<'_> {
     /// Bounds of the light, in each channel, of what may be seen of these spheres and of the background: in the
     /// dark, and where all lights and their highlights are at their highest.
     pub(super) fn range_of_light(&self, candidates: &[usize]) -> [Color; 2] {
+        if candidates.len() <= MOST_SPHERES {
+            self.range_on(candidates.iter().copied())
+        } else {
+            // Each tile would ask thousands.
+            let all = 0..self.world.spheres().len();
+            *self.range.get_or_init(|| self.range_on(all))
+        }
+    }
+
+    fn range_on(&self, spheres: impl Iterator<Item = usize>) -> [Color; 2] {
         let world = self.world;
         let background = self.empty_pixel().value;
         let [mut least, mut most] = [background; 2];
         let are_near = self.groups.iter().any(|group| group.scene.has_near_lights);
         let mut last = None;
-        for &sphere in candidates {
+        for sphere in spheres {
             // Parallel light is as bright everywhere.
             let looks = (
                 world.albedo(sphere),

@@ -350,7 +350,7 @@ fn pictures_of_crowds_end() {
         let exact = Exact::new(&world, &view, &seen, 1e-3, false);
         let of_tile = exact.groups[0].of_crowds.of(COUNT as usize);
         // About 3000 of 3750 tiles see them.
-        assert!((75_000..400_000).contains(&of_tile), "{case}: {of_tile}");
+        assert!((60_000..400_000).contains(&of_tile), "{case}: {of_tile}");
         let mut room = GroupScratch::default();
         let mut most = 0;
         for row in (96..304).step_by(16) {
@@ -372,7 +372,8 @@ fn pictures_of_crowds_end() {
                 );
             }
         }
-        assert!(most <= 4 * of_tile, "{case}: {most} of {of_tile}");
+        // A tile ends with what it has begun.
+        assert!(most <= of_tile + 270_000, "{case}: {most} of {of_tile}");
     }
 }
 
