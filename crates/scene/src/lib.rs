@@ -27,6 +27,7 @@
 //! as structures. `motion` and `world` give them their meaning, `report` writes the messages.
 
 mod bounds;
+mod figure;
 mod file;
 mod motion;
 mod report;
@@ -36,6 +37,7 @@ mod text;
 mod values;
 mod world;
 
+pub use figure::{Figure, ViewAngle, ViewAngleError};
 pub use motion::{FrameError, FrameFault};
 pub use report::{SceneError, SceneFault};
 pub use scene::{

@@ -1,9 +1,9 @@
 //! `marbles render`: renders the frames of a scene to picture files.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use marbles_core::{Method, Settings, View};
+use marbles_scene::Setting;
 use rayon::ThreadPool;
 
 use super::args::{PerLight, RenderArguments};
@@ -11,6 +11,7 @@ use super::inputs::Inputs;
 use super::several_scenes::Others;
 use super::{dim_light, figures, oversights, scene};
 use crate::base::failure::Failure;
+use crate::base::scene_name::scene_name;
 use crate::base::shown::Shown;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
@@ -69,7 +70,7 @@ fn run_scene(
     let request = request(arguments, scene, threads, console)?;
     others.add(&request)?;
     check_view(&request, arguments, threads, console)?;
-    let of_scene = |path: &PathBuf| with_scene(path, name_of(scene));
+    let of_scene = |path: &PathBuf| with_scene(path, scene_name(scene));
     let (legend, scale_bar) = (&arguments.legend, &arguments.scale_bar);
     figures::write(
         &request,
@@ -120,13 +121,20 @@ pub(super) fn request(
     console: &Console,
 ) -> Result<Request, Failure> {
     let output = arguments.output.as_deref();
-    let pattern = output.map(|output| Pattern::of_scene(output, name_of(path)));
+    let pattern = output.map(|output| Pattern::of_scene(output, scene_name(path)));
     let pattern = pattern.transpose().map_err(Failure::Usage)?;
     let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
     let encoding = encoding(arguments, format)?;
 
     let silent = arguments.quiet || arguments.progress.is_some();
-    let scene = threads.install(|| scene::load(path, &arguments.options, console, silent))?;
+    let size = arguments.size.map(|size| (size.width, size.height));
+    let figure = arguments.figure.figure(size);
+    let mut options = arguments.options.clone();
+    if arguments.white {
+        options.set.insert(0, Setting::new("background", "1"));
+    }
+    let load = || scene::load_figure(path, &figure, &options, console, silent);
+    let scene = threads.install(load)?;
     if scene.frames().is_none()
         && let Err(error) = scene.view(FRAME_OF_A_STILL)
     {
@@ -241,11 +249,6 @@ fn other_rate(request: &Request) -> Option<String> {
     let path = request.pattern.path(request.frames.first());
     let reason = why_other_rate(format, rate)?;
     Some(format!("{}: {reason}", path.shown()))
-}
-
-/// The name of the scene at `path`.
-fn name_of(path: &Path) -> &OsStr {
-    path.file_stem().unwrap_or_default()
 }
 
 /// Refuses a pattern of file names that does not fit the number of frames.

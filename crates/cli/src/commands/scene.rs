@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use marbles_core::{View, World};
-use marbles_scene::{Progress, Scene};
+use marbles_scene::{Figure, Progress, Scene};
 
 use super::args::SceneOptions;
 use crate::base::failure::Failure;
@@ -26,6 +26,17 @@ pub(super) fn load(
     console: &Console,
     quiet: bool,
 ) -> Result<Scene, Failure> {
+    load_figure(path, &Figure::default(), options, console, quiet)
+}
+
+/// Loads a scene file with what `figure` changes in it, or the figure of a table of particles.
+pub(super) fn load_figure(
+    path: &Path,
+    figure: &Figure,
+    options: &SceneOptions,
+    console: &Console,
+    quiet: bool,
+) -> Result<Scene, Failure> {
     let bar = if quiet { None } else { bar(console) };
     let show = |line: String| {
         if let Some(bar) = &bar {
@@ -40,7 +51,7 @@ pub(super) fn load(
             path.shown()
         ));
     }
-    let scene = Scene::load_with(path, &options.set, &|progress| {
+    let scene = Scene::load_figure(path, figure, &options.set, &|progress| {
         if progress.read.max(progress.size) >= LARGE {
             show(line(&progress));
         }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::args::RenderArguments;
 use crate::base::failure::Failure;
+use crate::base::scene_name::scene_name;
 use crate::base::shown::Shown;
 use crate::sequence::pattern::{SCENE, has_place_for_scene};
 use crate::sequence::request::Request;
@@ -56,12 +57,12 @@ impl Others {
 
 /// Refuses scenes whose files would have the same names.
 fn refuse_same_names(scenes: &[PathBuf]) -> Result<(), Failure> {
-    let mut names: Vec<_> = scenes.iter().map(|scene| scene.file_stem()).collect();
+    let mut names: Vec<_> = scenes.iter().map(|scene| scene_name(scene)).collect();
     names.sort_unstable();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),
         Some(same) => {
-            let name = Path::new(same[0].unwrap_or_default()).shown();
+            let name = Path::new(same[0]).shown();
             let message = format!("two scenes are called `{name}`, and would share their files");
             Err(Failure::Usage(message))
         }

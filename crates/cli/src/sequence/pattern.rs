@@ -4,6 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use crate::base::scene_name::scene_name;
 use crate::base::shown::Shown;
 use crate::formats::encoding::Format;
 
@@ -87,10 +88,10 @@ impl Pattern {
 
     /// The default names: those of the scene, in the current folder.
     pub(crate) fn named_after(scene: &Path, numbered: bool) -> Self {
-        let mut before = scene
-            .file_stem()
-            .unwrap_or(OsStr::new("marbles"))
-            .to_owned();
+        let mut before = match scene_name(scene) {
+            none if none.is_empty() => OsString::from("marbles"),
+            name => name.to_owned(),
+        };
         if numbered {
             before.push(".");
         }

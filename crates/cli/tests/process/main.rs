@@ -14,6 +14,7 @@ mod damage;
 mod datasets;
 #[cfg(unix)]
 mod farm;
+mod figures;
 mod files;
 mod folder;
 mod frames;

@@ -37,6 +37,9 @@ pub struct SceneError {
     is_of_changed_table: bool,
 }
 
+/// The words before the place in the scene file that names a table.
+const NAMED_AT: &str = "\nthe table is named at ";
+
 impl SceneError {
     /// The refused file: the scene file, or a table that it names.
     pub fn path(&self) -> &Path {
@@ -92,8 +95,16 @@ impl SceneError {
     ) -> Self {
         let (line, column) = line_and_column(text, place.start);
         let scene = harmless(&scene.to_string_lossy());
-        let end = format!("\nthe table is named at {scene}:{line}:{column}");
+        let end = format!("{NAMED_AT}{scene}:{line}:{column}");
         Self::new(path, vec![fault], &end)
+    }
+
+    /// The same error of a table that no scene file names.
+    pub(crate) fn of_table_alone(mut self) -> Self {
+        if self.end.starts_with(NAMED_AT) {
+            self.end.clear();
+        }
+        self
     }
 
     /// The error of a file in which something is wrong.

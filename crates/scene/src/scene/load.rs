@@ -7,9 +7,11 @@ use std::path::Path;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use super::other_file::{self, Kind};
+use super::oversights;
 use super::refused::refused;
 use super::{Description, Scene};
-use super::{other_file, oversights};
+use crate::figure::Figure;
 use crate::file::{Camera, File, FrameOver, Materials};
 use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
@@ -47,6 +49,20 @@ impl Scene {
         settings: &[Setting],
         watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Self, SceneError> {
+        Self::load_figure(path, &Figure::default(), settings, watch)
+    }
+
+    /// Loads a scene file as [`Self::load_with`] does, with the values that `figure` replaces; or loads the figure of a
+    /// table of particles.
+    ///
+    /// # Errors
+    /// As [`Self::load_with`].
+    pub fn load_figure(
+        path: &Path,
+        figure: &Figure,
+        settings: &[Setting],
+        watch: &(dyn Fn(Progress<'_>) + Sync),
+    ) -> Result<Self, SceneError> {
         if path.is_dir() {
             let reason = "expected a scene file, found a folder";
             return Err(SceneError::unreadable(path, reason));
@@ -54,6 +70,12 @@ impl Scene {
         if other_file::is_named_pipe(path) {
             let reason = "expected a scene file, found a named pipe";
             return Err(SceneError::unreadable(path, reason));
+        }
+        if let Some(name) = table_name(path)? {
+            let text = figure.scene_text(path, &name);
+            let own_path = path.with_file_name(format!("{name} (its scene)"));
+            let scene = Self::parse_with(&text, &own_path, settings, watch);
+            return scene.map_err(SceneError::of_table_alone);
         }
         let bytes = read_at_most(path, LARGEST_FILE).map_err(|error| {
             let why = match error.kind() {
@@ -67,8 +89,14 @@ impl Scene {
             };
             SceneError::unreadable(path, why)
         })?;
-        if let Some(message) = other_file::explain(path, &bytes) {
-            return Err(SceneError::unreadable(path, &message));
+        match other_file::kind(path, &bytes) {
+            Kind::Scene => {}
+            Kind::Table(_) => {
+                let message =
+                    "expected a scene, found a table that is not a regular file: save it as one";
+                return Err(SceneError::unreadable(path, message));
+            }
+            Kind::Other(message) => return Err(SceneError::unreadable(path, &message)),
         }
         let text = str::from_utf8(&bytes).map_err(|error| error.valid_up_to());
         let text = text.and_then(|text| {
@@ -76,16 +104,11 @@ impl Scene {
                 .map_or(Ok(text), |text| Err(text.len()))
         });
         match text {
-            Ok(text) if settings.is_empty() => Self::parse_watched(text, path, watch),
             Ok(text) => {
-                let mut text = without_byte_order_mark(text).to_owned();
-                for Setting { path: at, value } in settings {
-                    text = set(&text, at, value).map_err(|message| {
-                        let message = format!("--set {at}: {message}");
-                        SceneError::unreadable(path, &message)
-                    })?;
-                }
-                Self::parse_watched(&text, path, watch)
+                let own = figure.settings().into_iter();
+                let own = own.map(|(path, value)| Setting::new(path, &value));
+                let settings: Vec<Setting> = own.chain(settings.iter().cloned()).collect();
+                Self::parse_with(text, path, &settings, watch)
             }
             Err(valid_up_to) => {
                 let (valid, rest) = bytes.split_at(valid_up_to);
@@ -99,6 +122,27 @@ impl Scene {
         }
     }
 
+    /// Returns whether the file at `path` is a table of particles.
+    ///
+    /// # Errors
+    /// Refuses files that cannot be opened, and files of other kinds than scenes and tables.
+    pub fn is_table(path: &Path) -> Result<bool, SceneError> {
+        let refused = |reason: &str| Err(SceneError::unreadable(path, reason));
+        if path.is_dir() {
+            return refused("expected a table of particles, found a folder");
+        }
+        if !path.is_file() {
+            return refused("no such file");
+        }
+        let mut head = Vec::new();
+        let is_read = OpenFile::open(path).and_then(|file| file.take(BLOCK).read_to_end(&mut head));
+        match (is_read, other_file::kind(path, &head)) {
+            (Err(error), _) => refused(&reason(&error)),
+            (Ok(_), Kind::Other(message)) => refused(&message),
+            (Ok(_), kind) => Ok(matches!(kind, Kind::Table(_))),
+        }
+    }
+
     /// Checks a scene file's text; `path` is named in messages, and its folder is where tables are.
     ///
     /// A byte order mark at the start is skipped.
@@ -107,6 +151,26 @@ impl Scene {
     /// Refuses everything that the format does not allow.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
         Self::parse_watched(text, path, &|_| {})
+    }
+
+    /// Checks a scene file's text with the values of `settings` in place of its own.
+    fn parse_with(
+        text: &str,
+        path: &Path,
+        settings: &[Setting],
+        watch: &(dyn Fn(Progress<'_>) + Sync),
+    ) -> Result<Self, SceneError> {
+        if settings.is_empty() {
+            return Self::parse_watched(text, path, watch);
+        }
+        let mut text = without_byte_order_mark(text).to_owned();
+        for Setting { path: at, value } in settings {
+            text = set(&text, at, value).map_err(|message| {
+                let message = format!("--set {at}: {message}");
+                SceneError::unreadable(path, &message)
+            })?;
+        }
+        Self::parse_watched(&text, path, watch)
     }
 
     fn parse_watched(
@@ -170,6 +234,16 @@ pub struct SettingError {
     pub found: String,
 }
 
+impl Setting {
+    /// The value at `path`, both as they stand before and after the `=` of an option.
+    pub fn new(path: &str, value: &str) -> Self {
+        Self {
+            path: path.to_owned(),
+            value: value.to_owned(),
+        }
+    }
+}
+
 impl FromStr for Setting {
     type Err = SettingError;
 
@@ -183,10 +257,7 @@ impl FromStr for Setting {
         if path.is_empty() || value.is_empty() {
             return Err(refused());
         }
-        Ok(Self {
-            path: path.to_owned(),
-            value: value.to_owned(),
-        })
+        Ok(Self::new(path, value))
     }
 }
 
@@ -335,6 +406,27 @@ impl Draft {
 fn names(materials: &Materials) -> Option<Vec<String>> {
     let name = |name: &Placed<MaterialName>| Some(name.value.as_ref()?.0.clone());
     materials.0.iter().map(|(key, _)| name(key)).collect()
+}
+
+/// The name of the file at `path` if it is a table of particles; `None` if it is something else, or cannot be opened.
+///
+/// # Errors
+/// Refuses a table whose name is not in UTF-8.
+fn table_name(path: &Path) -> Result<Option<String>, SceneError> {
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let mut head = Vec::new();
+    let is_read = OpenFile::open(path).and_then(|file| file.take(BLOCK).read_to_end(&mut head));
+    if is_read.is_err() || !matches!(other_file::kind(path, &head), Kind::Table(_)) {
+        return Ok(None);
+    }
+    let name = path.file_name().and_then(|name| name.to_str());
+    let name = name.ok_or_else(|| {
+        let message = "expected a file name in UTF-8, as a scene names a table";
+        SceneError::unreadable(path, message)
+    })?;
+    Ok(Some(name.to_owned()))
 }
 
 /// The bytes of a file that has at most `most`, up to the first of 0; [`ErrorKind::FileTooLarge`] where it has more.

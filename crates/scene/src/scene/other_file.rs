@@ -1,40 +1,45 @@
-//! Files that are no scenes, and what to do with them.
+//! Files that are no scenes: tables of particles, and files of other kinds.
 
 use std::path::Path;
 
-use crate::table::Format;
-use crate::text::{quoted, token};
+use crate::table::{Format, is_compressed};
+use crate::text::token;
 
-/// Tells the kind of a file at `path` with these bytes that is no scene, and what to do; `None` where it may be one.
-pub(super) fn explain(path: &Path, bytes: &[u8]) -> Option<String> {
-    let text = match str::from_utf8(bytes) {
+/// The kind of a file that a command was given.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub(super) enum Kind {
+    /// A scene, or a file of which nothing tells what else it is.
+    Scene,
+    /// A table of particles, with the name of its format if that is sure.
+    Table(Option<&'static str>),
+    /// A file that is neither: the message about it.
+    Other(String),
+}
+
+/// The kind of the file at `path` that begins with these bytes.
+pub(super) fn kind(path: &Path, head: &[u8]) -> Kind {
+    let text = match str::from_utf8(head) {
         Ok(text) => text,
-        Err(error) => str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or_default(),
+        Err(error) => str::from_utf8(&head[..error.valid_up_to()]).unwrap_or_default(),
     };
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let start = &text[token::skip_trivia(text, 0)..];
     let is_named_so = path.extension().is_some_and(|ending| ending == "ron");
     if start.starts_with('(') || is_named_so && start.starts_with('#') {
-        return None;
+        return Kind::Scene;
     }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    match Format::evident(path, bytes)? {
-        Ok(format) => {
-            let (kind, file) = (format.name(), quoted(&name));
-            Some(format!(
-                "expected a scene, found a table ({kind}). A scene names the table, for example \
-                 `(image: (width: 800, height: 600), lens: Fov(30), camera: Frame(), ambient: 0.3, \
-                 lights: [Directional(toward: (-1, 1, -1))], clouds: [(file: {file})])`; save this next to it as `scene.ron`, and render that"
-            ))
-        }
+    match Format::evident(path, head) {
+        Some(Ok(format)) => Kind::Table(Some(format.name())),
         // What has this ending says that it is a scene.
-        Err(_) if is_named_so => None,
-        Err(foreign) => {
+        _ if is_named_so => Kind::Scene,
+        Some(Err(foreign)) => {
             let (kind, remedy) = (foreign.kind, foreign.remedy);
-            Some(format!(
-                "expected a scene, found {kind}: {remedy}, and name the table in a scene: `clouds: [(file: …)]`"
+            Kind::Other(format!(
+                "expected a scene or a table of particles, found {kind}: {remedy}, and render that table"
             ))
         }
+        None if is_compressed(head) => Kind::Table(None),
+        None => Kind::Scene,
     }
 }
 

@@ -27,6 +27,11 @@ const FREE_COUNT: u64 = 1 << 17;
 const MOST_FOR_A_BYTE: u64 = 250;
 const COUNT_FOR_A_BYTE: u64 = 4;
 
+/// Says whether a file that begins so is compressed.
+pub(crate) fn is_compressed(head: &[u8]) -> bool {
+    Compression::of_bytes(head).is_some()
+}
+
 /// The most bytes that a compressed file of this size may hold.
 pub(super) fn most_bytes(stored: u64) -> u64 {
     FREE_BYTES.max(stored.saturating_mul(MOST_FOR_A_BYTE))

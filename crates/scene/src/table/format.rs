@@ -118,7 +118,8 @@ impl Format {
     pub(crate) fn evident(path: &Path, head: &[u8]) -> Option<Result<Self, &'static Foreign>> {
         let ending = ending(path);
         let known = ENDINGS.iter().find(|known| known.0 == ending);
-        let by_contents = || by_contents(head).filter(|format| *format != Self::Text);
+        let is_sure = |format: &Self| *format != Self::Text || is_like_a_table(head);
+        let by_contents = || by_contents(head).filter(is_sure);
         let foreign = || foreign::by_contents(head);
         let format = by_magic(head)
             .or(known.map(|known| known.1).filter(|_| foreign().is_none()))

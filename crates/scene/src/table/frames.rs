@@ -163,6 +163,11 @@ impl<'watch> Frames<'watch> {
         Ok(true)
     }
 
+    /// True of formats of simulations, in whose tables z usually points up.
+    pub(crate) fn has_z_up(&self) -> bool {
+        matches!(self.format, Format::Lammps | Format::Gro)
+    }
+
     /// The name of the format.
     pub(crate) fn format(&self) -> &'static str {
         self.format.name()

@@ -51,6 +51,8 @@ mod zstandard;
 
 pub(crate) use colormap::{Colormap, index as color_index};
 pub(crate) use columns::{MOST_FILTERS, Test, unit};
+pub(crate) use columns::{has_axis, tells_radius};
+pub(crate) use compression::is_compressed;
 pub(crate) use element::{Radii, colors as element_colors, of_plain_symbol};
 pub(crate) use elements::color_names;
 pub(crate) use error::TableError;

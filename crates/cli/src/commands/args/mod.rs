@@ -4,6 +4,7 @@ mod check;
 mod compare;
 mod dataset;
 mod farm;
+mod figure;
 mod manual;
 mod merge;
 mod new;

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use marbles_core::Window;
 
+use super::figure::FigureOptions;
 use super::scene::SceneOptions;
 use super::values::{above_zero, bits, exposure, samples, threads, tolerance_above_zero};
 use crate::base::region::window_of;
@@ -19,6 +20,9 @@ Examples:
   marbles new ball.ron                                write a scene for these examples
   marbles new turn.ron --turntable                    write a turntable for these examples
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
+  marbles render molecule.pdb                         molecule.png: a figure of a table of particles
+  marbles render molecule.pdb --view top --transparent
+  marbles render molecule.pdb --turntable -o turn.webp
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file per frame
   marbles render a.ron b.ron -o out/{scene}.png       several scenes
   marbles render turn.ron --set camera.azimuth=30     another value in the scene
@@ -57,12 +61,16 @@ pub(crate) enum PerLight {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct RenderArguments {
-    /// Scene file; if you give several, they are rendered one after another
+    /// Scene file, or table of particles, such as a PDB, XYZ, CSV or LAMMPS file; if you give several, they are rendered
+    /// one after another
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
 
     #[command(flatten)]
     pub(crate) options: SceneOptions,
+
+    #[command(flatten)]
+    pub(crate) figure: FigureOptions,
 
     /// Names of the files; ####, %04d or {frame:04} stands for the frame number, {scene} for the name of the scene.
     /// The extension .png, .exr, .npy or .tif chooses the format; .webp, .gif or .apng puts all frames into one file,
@@ -110,8 +118,12 @@ pub(crate) struct RenderArguments {
     pub(crate) region: Option<Window>,
 
     /// Leave out the background, and store as alpha the share of each pixel that spheres cover
-    #[arg(long)]
+    #[arg(long, visible_alias = "transparent")]
     pub(crate) alpha: bool,
+
+    /// Make the background white, as that of a table is by default
+    #[arg(long, conflicts_with = "alpha")]
+    pub(crate) white: bool,
 
     /// Render each light alone, with its shadows, to NAME.light-KEY.png and so on; KEY is the name of the light, or its
     /// number from 1 (from 01 if there are ten or more). Ambient light and background go to NAME.ambient.png. The sum of

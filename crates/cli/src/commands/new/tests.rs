@@ -70,6 +70,27 @@ fn other_endings_are_refused() {
 }
 
 #[test]
+fn scenes_of_tables_name_them_from_their_folder() {
+    let name = |scene: &str, table: &str| {
+        let name = name_from(Path::new(scene), Path::new(table)).unwrap();
+        name.replace('\\', "/")
+    };
+    assert_eq!(name("a.ron", "b.xyz"), "b.xyz");
+    assert_eq!(name("a.ron", "data/b.xyz"), "data/b.xyz");
+    assert_eq!(name("data/a.ron", "data/b.xyz"), "b.xyz");
+    assert_eq!(name("out/deep/a.ron", "data/b.xyz"), "../../data/b.xyz");
+    assert_eq!(name("/out/a.ron", "/out/b.xyz"), "b.xyz");
+    // A path that is not below the current folder has no way back that is certain.
+    let folder = temporary("new-named");
+    fs::create_dir_all(&folder).unwrap();
+    let table = folder.join("b.xyz");
+    fs::write(&table, "").unwrap();
+    let found = name_from(Path::new("../a.ron"), &table).unwrap();
+    assert_eq!(Path::new(&found), fs::canonicalize(&table).unwrap());
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn names_in_comments_can_be_pasted() {
     assert_eq!(shown(Path::new("out/ball.ron")), "out/ball.ron");
     assert_eq!(shown(Path::new("my ball.ron")), "'my ball.ron'");

@@ -17,6 +17,7 @@ use super::args::SpheresArguments;
 use super::inputs::Inputs;
 use super::scene;
 use crate::base::failure::Failure;
+use crate::base::scene_name::scene_name;
 use crate::base::shown::Shown;
 use crate::base::size::Size;
 use crate::base::{status, threads};
@@ -85,7 +86,7 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
 
 /// The name of the table: that of the scene with another extension.
 fn named_after(scene: &Path) -> PathBuf {
-    let mut name = scene.file_stem().unwrap_or_default().to_owned();
+    let mut name = scene_name(scene).to_owned();
     name.push(".spheres.csv");
     PathBuf::from(name)
 }

@@ -16,30 +16,36 @@ fn refusal(name: &str, bytes: impl AsRef<[u8]>) -> String {
 }
 
 #[test]
-fn tables_say_how_a_scene_shows_them() {
+fn tables_are_told_from_scenes() {
     let pdb = "HETATM    1 CA    CA B   2       0.000   0.000   0.000  1.00 30.00\nEND\n";
-    for (name, bytes, kind) in [
-        ("a.pdb", pdb.as_bytes(), "PDB"),
-        ("b", pdb.as_bytes(), "PDB"),
-        ("c.ron", pdb.as_bytes(), "PDB"),
-        ("d.npy", b"\x93NUMPY\x01\0", "NPY"),
-        ("e.csv", b"x,y,z\n", "CSV"),
-        ("f.xyz", b"2\n\nC 0 0 0\nC 1 1 1\n", "XYZ"),
-        ("g.dump.gz", b"\x1f\x8b\x08\0", "a dump of LAMMPS"),
+    let rows = b"0 0 0\n1 2 3\n";
+    for (name, bytes, is_table) in [
+        ("a.pdb", pdb.as_bytes(), true),
+        ("b", pdb.as_bytes(), true),
+        ("c.ron", pdb.as_bytes(), true),
+        ("d.npy", b"\x93NUMPY\x01\0", true),
+        ("e.csv", b"x,y,z\n", true),
+        ("f.xyz", b"2\n\nC 0 0 0\nC 1 1 1\n", true),
+        ("g.dump.gz", b"\x1f\x8b\x08\0", true),
+        ("h.gz", b"\x1f\x8b\x08\0", true),
+        ("i", rows, true),
+        ("i.ron", b"(image: 0 0 0)", false),
+        ("j", b"image: 0 0 0", false),
     ] {
-        let message = refusal(name, bytes);
-        let start = format!(
-            "expected a scene, found a table ({kind}). A scene names the table, for example"
-        );
-        assert!(message.starts_with(&start), "{message}");
-        // The scene that it shows is one, up to the table.
-        let scene = message.split('`').nth(1).unwrap();
-        let error = Scene::parse(scene, "scene.ron".as_ref()).unwrap_err();
-        assert!(error.to_string().contains("found no file"), "{error}");
+        let path = env::temp_dir().join(format!("marbles-kind-{}-{name}", process::id()));
+        fs::write(&path, bytes).unwrap();
+        assert_eq!(Scene::is_table(&path).unwrap(), is_table, "{name}");
+        fs::remove_file(&path).unwrap();
     }
+}
+
+#[test]
+fn other_files_are_named() {
     let message = refusal("a.mol2", "@<TRIPOS>MOLECULE\n");
     assert!(
-        message.starts_with("expected a scene, found a molecule in MOL2: save"),
+        message.starts_with(
+            "expected a scene or a table of particles, found a molecule in MOL2: save"
+        ),
         "{message}"
     );
     // What looks like a scene is one.

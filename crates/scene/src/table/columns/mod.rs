@@ -10,6 +10,6 @@ mod units;
 
 pub(crate) use filter::Test;
 pub(crate) use kinds::plan_of_kinds;
-pub(crate) use names::{MOST_COLUMNS, components, marked, unit};
+pub(crate) use names::{MOST_COLUMNS, components, has_axis, marked, tells_radius, unit};
 pub(crate) use plan::{Nature, Plan, RadiusSource, Uses, ValueSource};
 pub(crate) use slot::{MOST_FILTERS, Slot};

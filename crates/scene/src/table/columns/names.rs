@@ -69,6 +69,14 @@ impl Names {
         exact.or_else(|| self.0.iter().position(bare))
     }
 
+    /// The column of radii; one called `r` may be red instead.
+    pub(super) fn find_radius(&self, has_colors: bool) -> Option<(usize, &'static str)> {
+        let is_red = has_colors && self.find("red").is_none();
+        let names = Slot::Radius.names().iter();
+        let mut names = names.filter(|name| !(is_red && **name == "r"));
+        names.find_map(|name| Some((self.find(name)?, *name)))
+    }
+
     /// The column with this coordinate of positions, by the names that programs give it.
     fn find_position(&self, axis: usize) -> Option<usize> {
         let letter = ["x", "y", "z"][axis];
@@ -165,6 +173,20 @@ impl Names {
 
 /// The part of a name that several columns share, in characters: each of them has a copy.
 const LONGEST_SHARED: usize = 1000;
+
+/// Says whether a column with one of these names holds the positions along an axis, from 0 to 2.
+pub(crate) fn has_axis(names: &Arc<Vec<String>>, axis: usize) -> bool {
+    let slot = [Slot::X, Slot::Y, Slot::Z][axis];
+    Names(Arc::clone(names)).find_slot(slot).is_some()
+}
+
+/// Says whether a column with one of these names holds radii or diameters.
+pub(crate) fn tells_radius(names: &Arc<Vec<String>>) -> bool {
+    let names = Names(Arc::clone(names));
+    let mut colors = [Slot::Red, Slot::Green, Slot::Blue].into_iter();
+    let has_colors = colors.all(|slot| names.find_slot(slot).is_some());
+    names.find_radius(has_colors).is_some() || names.find("diameter").is_some()
+}
 
 /// The names of the columns that hold `count` values called `name` together.
 pub(crate) fn components(name: &str, count: u64) -> Vec<String> {

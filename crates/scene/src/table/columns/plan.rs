@@ -255,7 +255,7 @@ impl Plan {
             self.take(Slot::Radius, Some(chosen))?;
             return Ok(RadiusSource::Column(scale.unwrap_or(1.0), law));
         }
-        if let Some((column, name)) = self.find_radius(has_colors) {
+        if let Some((column, name)) = self.names.find_radius(has_colors) {
             let column = self.names.once(column, name)?;
             self.use_for(column, Slot::Radius);
             return Ok(RadiusSource::Column(scale.unwrap_or(1.0), law));
@@ -371,13 +371,5 @@ impl Plan {
                 Uses::Several(slots)
             }
         };
-    }
-
-    /// The column of radii; one called `r` may be red instead.
-    fn find_radius(&self, has_colors: bool) -> Option<(usize, &'static str)> {
-        let is_red = has_colors && self.names.find("red").is_none();
-        let names = Slot::Radius.names().iter();
-        let mut names = names.filter(|name| !(is_red && **name == "r"));
-        names.find_map(|name| Some((self.names.find(name)?, *name)))
     }
 }

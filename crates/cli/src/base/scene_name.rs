@@ -1,0 +1,40 @@
+//! The name of a scene or a table, from which default names of files are made.
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// The endings of compressed files.
+const COMPRESSED: [&str; 2] = ["gz", "zst"];
+
+/// The name of the file at `path` without its extension, and without that of a compression.
+pub(crate) fn scene_name(path: &Path) -> &OsStr {
+    let stem = path.file_stem().unwrap_or_default();
+    let ending = path.extension().unwrap_or_default();
+    let is_compressed = COMPRESSED
+        .iter()
+        .any(|known| ending.eq_ignore_ascii_case(known));
+    match is_compressed {
+        true => Path::new(stem).file_stem().unwrap_or(stem),
+        false => stem,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_have_no_endings() {
+        for (path, name) in [
+            ("out/ball.ron", "ball"),
+            ("water.xyz", "water"),
+            ("water.xyz.gz", "water"),
+            ("run.0005.csv.ZST", "run.0005"),
+            ("water", "water"),
+            ("water.gz", "water"),
+            ("..", ""),
+        ] {
+            assert_eq!(scene_name(Path::new(path)), name, "{path}");
+        }
+    }
+}
