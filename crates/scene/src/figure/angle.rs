@@ -42,7 +42,8 @@ fn still(spheres: &[Sphere]) -> Option<ViewAngle> {
     let (deviations, axes) = principal_axes(spheres)?;
     let [largest, middle, least] = deviations;
     let usual = axes_of_orbit([USUAL.azimuth, USUAL.elevation, 0.0]).z_axis;
-    let along = if least >= ALIKE * middle {
+    let is_rod = least >= ALIKE * middle;
+    let along = if is_rod {
         if middle >= ALIKE * largest {
             return None;
         }
@@ -64,7 +65,8 @@ fn still(spheres: &[Sphere]) -> Option<ViewAngle> {
         _ => libm::atan2(along.x, along.z).to_degrees(),
     };
     let round = |degrees: f64| libm::round(degrees) + 0.0;
-    if least <= FLAT * largest {
+    // A rod seen across lies level or stands upright, which a tilt would spoil.
+    if is_rod || least <= FLAT * largest {
         return Some(ViewAngle {
             azimuth: round(azimuth),
             elevation: round(elevation),

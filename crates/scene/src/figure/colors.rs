@@ -18,7 +18,7 @@ const MOST_CATEGORIES: usize = 12;
 const MOST_COLUMNS: usize = 24;
 /// If the numbers from the 1st to the 99th percentile cover less than this share of all, a few extreme ones would take
 /// all colors.
-const LEAST_SHARE: f64 = 0.3;
+const LEAST_SHARE: f64 = 0.6;
 /// Names of columns that number rows, or say where and when they are, rather than what they are like.
 const PASSED_OVER: [&str; 40] = [
     "id",
