@@ -7,6 +7,7 @@ mod other_file;
 mod oversights;
 mod references;
 mod refused;
+mod setting;
 
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -21,7 +22,7 @@ use crate::motion::{
 use crate::report::SceneError;
 use crate::world::{ColumnSummary, OpenCloud, Series, StepKey};
 pub use description::{CloudDescription, ColorDescription, ColorMeaning, Description};
-pub use load::{Setting, SettingError};
+pub use setting::{Setting, SettingError};
 
 /// A scene file that was read and found valid.
 ///

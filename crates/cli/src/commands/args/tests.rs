@@ -58,7 +58,7 @@ fn numbers_out_of_range_are_refused() {
 #[test]
 fn negative_numbers_are_values() {
     /// Options whose values are no numbers.
-    const OTHERS: [&str; 14] = [
+    const OTHERS: [&str; 15] = [
         "set",
         "output",
         "job",
@@ -70,6 +70,7 @@ fn negative_numbers_are_values() {
         "layout",
         "progress",
         "per-light",
+        "turntable",
         "channels",
         "depth",
         "axes",
