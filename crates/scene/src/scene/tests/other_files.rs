@@ -28,6 +28,7 @@ fn tables_are_told_from_scenes() {
         ("f.xyz", b"2\n\nC 0 0 0\nC 1 1 1\n", true),
         ("g.dump.gz", b"\x1f\x8b\x08\0", true),
         ("h.gz", b"\x1f\x8b\x08\0", true),
+        ("h.zst", b"(\xb5\x2f\xfd\x04\0", true),
         ("i", rows, true),
         ("i.ron", b"(image: 0 0 0)", false),
         ("j", b"image: 0 0 0", false),
