@@ -91,7 +91,7 @@ impl Scene {
         })?;
         match other_file::kind(path, &bytes) {
             Kind::Scene => {}
-            Kind::Table(_) => {
+            Kind::Table => {
                 let message =
                     "expected a scene, found a table that is not a regular file: save it as one";
                 return Err(SceneError::unreadable(path, message));
@@ -139,7 +139,7 @@ impl Scene {
         match (is_read, other_file::kind(path, &head)) {
             (Err(error), _) => refused(&reason(&error)),
             (Ok(_), Kind::Other(message)) => refused(&message),
-            (Ok(_), kind) => Ok(matches!(kind, Kind::Table(_))),
+            (Ok(_), kind) => Ok(matches!(kind, Kind::Table)),
         }
     }
 
@@ -348,7 +348,7 @@ fn table_name(path: &Path) -> Result<Option<String>, SceneError> {
     }
     let mut head = Vec::new();
     let is_read = OpenFile::open(path).and_then(|file| file.take(BLOCK).read_to_end(&mut head));
-    if is_read.is_err() || !matches!(other_file::kind(path, &head), Kind::Table(_)) {
+    if is_read.is_err() || !matches!(other_file::kind(path, &head), Kind::Table) {
         return Ok(None);
     }
     let name = path.file_name().and_then(|name| name.to_str());

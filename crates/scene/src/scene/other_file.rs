@@ -10,8 +10,8 @@ use crate::text::token;
 pub(super) enum Kind {
     /// A scene, or a file of which nothing tells what else it is.
     Scene,
-    /// A table of particles, with the name of its format if that is sure.
-    Table(Option<&'static str>),
+    /// A table of particles.
+    Table,
     /// A file that is neither: the message about it.
     Other(String),
 }
@@ -31,7 +31,7 @@ pub(super) fn kind(path: &Path, head: &[u8]) -> Kind {
         return Kind::Scene;
     }
     match Format::evident(path, head) {
-        Some(Ok(format)) => Kind::Table(Some(format.name())),
+        Some(Ok(_)) => Kind::Table,
         // What has this ending says that it is a scene.
         _ if is_named_so => Kind::Scene,
         Some(Err(foreign)) => {
@@ -40,7 +40,7 @@ pub(super) fn kind(path: &Path, head: &[u8]) -> Kind {
                 "expected a scene or a table of particles, found {kind}: {remedy}, and render that table"
             ))
         }
-        None if is_compressed(head) => Kind::Table(None),
+        None if is_compressed(head) => Kind::Table,
         None => Kind::Scene,
     }
 }
