@@ -13,7 +13,7 @@ use crate::search::view_index::ViewIndex;
 pub(crate) const FEWEST: usize = 64;
 
 /// The units that crowds may cost, for each pixel of a picture, and the pixels that a smaller picture counts as: one of
-/// these, 600 × 400, of a hundred thousand spheres that nearly coincide, ends after 10 s on two threads, of which about half
+/// these, 600 × 400, of a hundred thousand spheres that nearly coincide, ends after 9 s on two threads, of which about half
 /// find what its tiles see.
 const OF_PIXEL: u64 = 1024;
 const LEAST_PIXELS: u64 = 240_000;

@@ -176,7 +176,8 @@ fn seen_in(
 
 /// The spheres that the tiles of a block may see, in their order.
 fn of_tiles(index: &ViewIndex<'_>, block: Tile) -> Vec<u32> {
-    let mut words: Vec<u64> = Vec::new();
+    // The tiles of a block have their places in common: a sphere is looked up once.
+    let mut places = Vec::new();
     for row in (block.row..block.row + block.height).step_by(Tile::SIDE as usize) {
         for col in (block.col..block.col + block.width).step_by(Tile::SIDE as usize) {
             let corner = Tile {
@@ -185,18 +186,32 @@ fn of_tiles(index: &ViewIndex<'_>, block: Tile) -> Vec<u32> {
                 width: 1,
                 height: 1,
             };
-            for ball in index.balls(corner) {
-                let word = (ball.index / u64::BITS) as usize;
-                if word >= words.len() {
-                    words.resize(word + 1, 0);
-                }
-                words[word] |= 1 << (ball.index % u64::BITS);
+            for place in index.balls(corner).places {
+                mark(&mut places, place);
             }
         }
     }
+    let balls = index.balls(block).balls;
+    let mut spheres = Vec::new();
+    for place in marked(&places) {
+        mark(&mut spheres, balls[place as usize].index);
+    }
+    marked(&spheres).collect()
+}
+
+/// Sets a bit by its number.
+fn mark(words: &mut Vec<u64>, number: u32) {
+    let word = (number / u64::BITS) as usize;
+    if word >= words.len() {
+        words.resize(word + 1, 0);
+    }
+    words[word] |= 1 << (number % u64::BITS);
+}
+
+/// The numbers of the bits that are set, in rising order.
+fn marked(words: &[u64]) -> impl Iterator<Item = u32> {
     let words = words.iter().zip(0..);
-    let spheres = words.flat_map(|(&bits, word): (&u64, u32)| {
+    words.flat_map(|(&bits, word): (&u64, u32)| {
         set_bits(bits).map(move |bit| word * u64::BITS + bit as u32)
-    });
-    spheres.collect()
+    })
 }

@@ -141,6 +141,10 @@ impl LitTile {
             .resize(tile.count() as usize, context.empty_pixel());
         self.costs.clear(tile.count());
         self.crowds = CrowdWork::new(of_crowds);
+        if self.is_dense {
+            // All of them were asked what they cover and whether they are hidden, in the tile and in blocks around it.
+            self.crowds.spend(candidates as u64);
+        }
         self.unknown = 0;
     }
 }

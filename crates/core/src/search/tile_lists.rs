@@ -85,7 +85,7 @@ impl TileLists {
 
 /// Places in rising order: those listed for a tile, and those of wide ranges that cover it.
 #[derive(Clone, Debug)]
-pub(super) struct Places<'lists> {
+pub(crate) struct Places<'lists> {
     column: u32,
     listed: &'lists [u32],
     wide: &'lists [(u32, TileRange)],

@@ -44,13 +44,14 @@ enum Lists {
 /// The balls that may be seen in a tile, those that come nearest first.
 #[derive(Clone, Debug)]
 pub(crate) struct Balls<'index> {
-    balls: &'index [Ball],
-    places: Listed<'index>,
+    /// Those of all tiles that have their places in common: at least of a block of tiles.
+    pub(crate) balls: &'index [Ball],
+    pub(crate) places: Listed<'index>,
 }
 
 /// Their places.
 #[derive(Clone, Debug)]
-enum Listed<'index> {
+pub(crate) enum Listed<'index> {
     Few(Places<'index>),
     Many(slice::Iter<'index, u32>),
 }
@@ -70,11 +71,20 @@ impl<'index> Iterator for Balls<'index> {
 
     #[inline(always)]
     fn next(&mut self) -> Option<&'index Ball> {
-        let place = match &mut self.places {
-            Listed::Few(places) => places.next()?,
-            Listed::Many(places) => *places.next()?,
-        };
+        let place = self.places.next()?;
         Some(&self.balls[place as usize])
+    }
+}
+
+impl Iterator for Listed<'_> {
+    type Item = u32;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<u32> {
+        match self {
+            Self::Few(places) => places.next(),
+            Self::Many(places) => places.next().copied(),
+        }
     }
 }
 
