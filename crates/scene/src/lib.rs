@@ -41,7 +41,8 @@ pub use figure::{Figure, ViewAngle, ViewAngleError};
 pub use motion::{FrameError, FrameFault};
 pub use report::{SceneError, SceneFault};
 pub use scene::{
-    CloudDescription, ColorDescription, ColorMeaning, Description, Scene, Setting, SettingError,
+    CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description, Scene, Setting,
+    SettingError,
 };
 pub use table::written_time;
 pub use text::harmless;

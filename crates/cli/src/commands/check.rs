@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Channels, Color, Light, LightFalloff, Sphere, View, World};
-use marbles_scene::{CloudDescription, FrameError, Scene};
+use marbles_scene::{CellDescription, CloudDescription, FrameError, Scene};
 use serde_json::json;
 
 use super::args::{CheckArguments, DEFAULT_TOLERANCE};
@@ -202,8 +202,12 @@ fn cloud(
     if let Some(steps) = cloud.steps {
         rows.push(("  steps", steps.to_string()));
     }
-    if cloud.rows != all.len() as u64 {
-        rows.push(("  kept", format!("{} of {} rows", all.len(), cloud.rows)));
+    if cloud.rows != cloud.kept {
+        let told = format!("{} of {} rows", cloud.kept, cloud.rows);
+        rows.push(("  kept", told));
+    }
+    if let Some(cell) = &cloud.cell {
+        rows.push(("  cell", self::cell(cell)));
     }
     let columns = scene.columns(index).unwrap_or_default();
     let name = |first: usize| if first == 0 { "  columns" } else { "" };
@@ -218,6 +222,17 @@ fn cloud(
         rows.push(("  seen by", camera));
     }
     rows
+}
+
+/// The cell of a table: its lengths and angles, and how often it is shown.
+fn cell(cell: &CellDescription) -> String {
+    let [a, b, c] = cell.lengths.map(short);
+    let [alpha, beta, gamma] = cell.angles.map(short);
+    let repeated = match cell.repeat {
+        [1, 1, 1] => String::new(),
+        [i, j, k] => format!("; repeated {i} x {j} x {k}"),
+    };
+    format!("{a} x {b} x {c}, angles {alpha}, {beta}, {gamma} degrees{repeated}")
 }
 
 fn spheres(spheres: &[Sphere]) -> String {

@@ -7,7 +7,7 @@ use crate::table::{Coloring, Colormap, ColumnRef, Missing, Value, ValueRange};
 use crate::text::{Placed, present};
 use crate::values::{
     Color, Coordinate, Every, Exponent, FileName, Flag, FrameRange, MaterialName, Point, Radius,
-    RadiusScale, Scale, Speed, from_srgb,
+    RadiusScale, Repeat, Scale, Speed, from_srgb,
 };
 
 /// Spheres of a table; matte white without a material, and where the table puts them.
@@ -53,6 +53,14 @@ pub(crate) struct Cloud {
     pub(crate) missing: Placed<Missing>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) palette: Option<Placed<Palette>>,
+    #[serde(default)]
+    pub(crate) repeat: Placed<Repeat>,
+    #[serde(default = "no")]
+    pub(crate) wrap: Placed<Flag>,
+    #[serde(default = "no")]
+    pub(crate) unwrap: Placed<Flag>,
+    #[serde(default = "no")]
+    pub(crate) edges: Placed<Flag>,
     #[serde(default = "no")]
     pub(crate) center: Placed<Flag>,
     #[serde(default, deserialize_with = "present")]

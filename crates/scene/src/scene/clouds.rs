@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use marbles_core::Lens;
 
 use super::refused::explain;
-use super::{CloudDescription, ColorDescription, ColorMeaning, Scene};
+use super::{CellDescription, CloudDescription, ColorDescription, ColorMeaning, Scene};
 use crate::bounds::Bounds;
 use crate::file::FrameOver;
 use crate::motion::Framed;
@@ -49,6 +49,14 @@ impl Scene {
             file,
             spheres: *count..end,
             rows: step.rows,
+            kept: step.kept,
+            cell: step.cell.map(|cell| CellDescription {
+                edges: [cell.edges.x_axis, cell.edges.y_axis, cell.edges.z_axis],
+                origin: cell.origin,
+                lengths: cell.lengths(),
+                angles: cell.angles(),
+                repeat: cloud.cloud.request.periodic.repeat,
+            }),
             is_right_handed: step.is_right_handed,
             steps: cloud.steps(),
             colors: colors(cloud.scale(), &step),

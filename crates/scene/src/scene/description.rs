@@ -37,6 +37,10 @@ pub struct CloudDescription {
     pub spheres: Range<usize>,
     /// The number of rows of the table in the first frame, including those that were not kept.
     pub rows: u64,
+    /// The number of rows that were kept. Each is a sphere, unless a crystal's symmetry or repeated cells make it several.
+    pub kept: u64,
+    /// The cell of the first frame, if the table has one.
+    pub cell: Option<CellDescription>,
     /// True if the axes of the table are right-handed, because the scene file says so, or else because its format has
     /// such axes.
     pub is_right_handed: bool,
@@ -44,6 +48,42 @@ pub struct CloudDescription {
     pub steps: Option<usize>,
     /// The column that the colors show, if they show one.
     pub colors: Option<ColorDescription>,
+}
+
+/// The cell of a periodic table, in the axes and the unit of the table.
+///
+/// # Example
+/// ```
+/// use marbles_scene::Scene;
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles CellDescription {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// // `polonium.xyz`: one atom in a cube
+/// # std::fs::write(folder.join("polonium.xyz"), "1\nLattice=\"3.4 0 0 0 3.4 0 0 0 3.4\"\nPo 0 0 0\n")?;
+/// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
+///     clouds: [(file: "polonium.xyz", repeat: (3, 3, 2))])"#;
+/// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
+/// # std::fs::remove_dir_all(&folder)?;
+/// // …
+/// let cloud = &scene.clouds()[0];
+/// let cell = cloud.cell.as_ref().expect("the table has a cell");
+/// assert_eq!((cell.lengths, cell.angles), ([3.4; 3], [90.0; 3]));
+/// assert_eq!((cell.repeat, cloud.spheres.len()), ([3, 3, 2], 18));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CellDescription {
+    /// The edges a, b and c.
+    pub edges: [DVec3; 3],
+    /// The corner from which the edges go out.
+    pub origin: DVec3,
+    /// The lengths of the edges.
+    pub lengths: [f64; 3],
+    /// The angles between b and c, a and c, and a and b, in degrees.
+    pub angles: [f64; 3],
+    /// The number of cells that the scene shows along each edge.
+    pub repeat: [u32; 3],
 }
 
 /// The meaning of the colors of a table's spheres.

@@ -21,7 +21,9 @@ use crate::motion::{
 };
 use crate::report::SceneError;
 use crate::world::{ColumnSummary, OpenCloud, Series, StepKey};
-pub use description::{CloudDescription, ColorDescription, ColorMeaning, Description};
+pub use description::{
+    CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description,
+};
 pub use setting::{Setting, SettingError};
 
 /// A scene file that was read and found valid.

@@ -16,6 +16,10 @@ pub(crate) enum TableError {
     OutOfMemory(u64),
     /// Something is wrong in it.
     Fault(LocatedFault),
+    /// It has no cell, and this field of the scene file needs one.
+    NoCell(&'static str),
+    /// What the scene file asks for cannot be shown, as this message says.
+    InScene(String),
     /// It is not the file any more that was read before.
     Changed,
 }

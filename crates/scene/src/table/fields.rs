@@ -17,6 +17,8 @@ pub(crate) enum Division {
     /// Between spaces, where a chain may be left out before the number of the residue; the name comes once more at the
     /// end, as that of PQR tells the element.
     Pqr,
+    /// Between spaces and tabs, behind an empty field at the start.
+    BehindNothing,
 }
 
 impl Division {
@@ -61,6 +63,10 @@ impl<'line> Fields<'line> {
             Division::QuotedWords => self.next_quoted_word(),
             Division::Fixed(places) => self.next_place(places),
             Division::Pqr => self.next_of_pqr(),
+            Division::BehindNothing => match std::mem::replace(&mut self.count, 1) {
+                0 => Some(0..0),
+                _ => self.next_word(),
+            },
         }
     }
 

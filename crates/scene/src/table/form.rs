@@ -1,6 +1,7 @@
 //! The form of a text's rows.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::element;
 use super::elements::Atom;
@@ -18,6 +19,8 @@ pub(crate) struct Form {
     pub(crate) kind: fn(&[u8]) -> LineKind,
     /// The atomic number that a line tells in this field.
     pub(crate) element: ElementOf,
+    /// The atom that all rows are, where no field tells it.
+    pub(crate) atom: Option<FixedAtom>,
     /// The place of what atoms are called where nothing is in the field of the element.
     pub(crate) name: Range<usize>,
     /// The place of coordinates that have so many columns each, where they have.
@@ -26,6 +29,14 @@ pub(crate) struct Form {
     pub(crate) check: Check,
     /// Rows end before one that has something else in this column.
     pub(crate) same: Option<(usize, Vec<u8>)>,
+}
+
+/// The atom that rows are.
+#[derive(Clone, Debug)]
+pub(crate) struct FixedAtom {
+    /// The atomic number, 0 where there is none.
+    pub(crate) number: u8,
+    pub(crate) label: Arc<[u8]>,
 }
 
 /// The atomic number that a line tells in a field.
@@ -53,6 +64,7 @@ impl Form {
             has_decimal_commas: false,
             kind: of_table,
             element: |line, field| element::of_label(&line[field]),
+            atom: None,
             name: 0..0,
             coordinates: 0..0,
             check: |_, _| None,
@@ -62,7 +74,13 @@ impl Form {
 
     /// The atom of a line that has its element in this field.
     #[inline]
-    pub(crate) fn atom<'a>(&self, line: &'a [u8], field: Range<usize>) -> Atom<'a> {
+    pub(crate) fn atom<'a>(&'a self, line: &'a [u8], field: Range<usize>) -> Atom<'a> {
+        if let Some(atom) = &self.atom {
+            return Atom {
+                number: atom.number,
+                label: &atom.label,
+            };
+        }
         let number = (self.element)(line, field.clone()).unwrap_or(0);
         let label = match line[field.clone()].is_empty() {
             true => line.get(self.name.clone()).unwrap_or_default(),

@@ -8,7 +8,7 @@ use super::foreign::{self, Foreign};
 use super::form::{self, LineKind};
 use super::input::without_return;
 use super::number::parse;
-use super::{npy, npz, pqr, vtk};
+use super::{npy, npz, poscar, pqr, vtk};
 
 /// The format of a table.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -24,12 +24,14 @@ pub(crate) enum Format {
     Pdb,
     Ply,
     Pqr,
+    /// Structures and trajectories of VASP.
+    Vasp,
     Vtk,
     Xyz,
 }
 
 /// The endings of names by which formats are told.
-pub(crate) const ENDINGS: [(&str, Format); 20] = [
+pub(crate) const ENDINGS: [(&str, Format); 24] = [
     ("csv", Format::Csv),
     ("tsv", Format::Csv),
     ("txt", Format::Text),
@@ -50,6 +52,10 @@ pub(crate) const ENDINGS: [(&str, Format); 20] = [
     ("mmcif", Format::MmCif),
     ("pdbx", Format::MmCif),
     ("vtk", Format::Vtk),
+    ("poscar", Format::Vasp),
+    ("contcar", Format::Vasp),
+    ("xdatcar", Format::Vasp),
+    ("vasp", Format::Vasp),
 ];
 
 impl Format {
@@ -109,7 +115,22 @@ impl Format {
             | Self::Pdb
             | Self::Ply
             | Self::Pqr
+            | Self::Vasp
             | Self::Vtk
+            | Self::Xyz => true,
+        }
+    }
+
+    /// Says whether a table of this format may tell a cell.
+    pub(crate) fn may_have_cell(self) -> bool {
+        match self {
+            Self::Csv | Self::Text | Self::Npy | Self::Npz | Self::Ply | Self::Vtk => false,
+            Self::Gro
+            | Self::Lammps
+            | Self::MmCif
+            | Self::Pdb
+            | Self::Pqr
+            | Self::Vasp
             | Self::Xyz => true,
         }
     }
@@ -141,6 +162,7 @@ impl Format {
             Self::Pdb => "PDB",
             Self::Ply => "PLY",
             Self::Pqr => "PQR",
+            Self::Vasp => "a structure of VASP",
             Self::Vtk => "legacy VTK",
             Self::Xyz => "XYZ",
         }
@@ -248,6 +270,9 @@ fn by_contents(head: &[u8]) -> Option<Format> {
     }
     if is_count(second) && !is_count(first) && third.len() >= 44 {
         return Some(Format::Gro);
+    }
+    if poscar::is_like(head) {
+        return Some(Format::Vasp);
     }
     // Something of it has to be numbers.
     let is_table = [first, second, third]

@@ -13,7 +13,7 @@ use super::input::Input;
 use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
-use super::{delimited, gro, lammps, mmcif, npy, npz, pdb, ply, pqr, vtk, xyz};
+use super::{delimited, gro, lammps, mmcif, npy, npz, pdb, ply, poscar, pqr, vtk, xyz};
 use crate::text::LocatedFault;
 
 /// The frames of a table, one after another.
@@ -99,6 +99,7 @@ impl<'watch> Frames<'watch> {
                 | Format::Pqr
                 | Format::MmCif
                 | Format::Npy
+                | Format::Vasp
         )
     }
 
@@ -107,6 +108,13 @@ impl<'watch> Frames<'watch> {
         let input = &mut self.input;
         if self.is_at_end {
             return Ok(None);
+        }
+        if let Some(field) = request
+            .periodic
+            .field()
+            .filter(|_| !self.format.may_have_cell())
+        {
+            return Err(TableError::NoCell(field));
         }
         let rows = match self.format {
             Format::Npy => {
@@ -136,6 +144,8 @@ impl<'watch> Frames<'watch> {
         self.is_at_end = !self.may_be_several();
         let mut rows = rows?;
         rows.is_right_handed = self.format.is_right_handed();
+        rows.kept.get_or_insert(rows.spheres.len() as u64);
+        request.periodic.apply(&mut rows)?;
         Ok(Some(rows))
     }
 
@@ -191,7 +201,10 @@ impl<'watch> Frames<'watch> {
     pub(crate) fn doubt_open_end(&mut self) {
         let input = &mut self.input;
         if input.is_open_at_end()
-            && matches!(self.format, Format::Xyz | Format::Lammps | Format::Gro)
+            && matches!(
+                self.format,
+                Format::Xyz | Format::Lammps | Format::Gro | Format::Vasp
+            )
         {
             let doubt = "the file ends within this line: its last number may have been cut off";
             input.doubt_line(doubt);
@@ -262,8 +275,8 @@ impl<'watch> Frames<'watch> {
         if self.format == Format::Npy && self.array.is_none() {
             self.array = npy::Array::new(&mut self.input).ok();
         }
-        if self.format == Format::MmCif {
-            // The loop names its columns once, before the first frame.
+        if matches!(self.format, Format::MmCif | Format::Pdb | Format::Vasp) {
+            // The columns and the cell are told once, before the first frame.
             match place.lines {
                 0 => self.previous = None,
                 _ if self.previous.is_none() => self.previous = self.header().ok().flatten(),
@@ -292,9 +305,10 @@ impl<'watch> Frames<'watch> {
             Format::Xyz => xyz::header(input, self.previous.as_ref()),
             Format::Lammps => lammps::header(input),
             Format::Gro => gro::header(input),
-            Format::Pdb => pdb::header(input),
+            Format::Pdb => pdb::header(input, self.previous.as_ref()),
             Format::Pqr => pqr::header(input),
             Format::MmCif => mmcif::header(input, self.previous.as_ref()),
+            Format::Vasp => poscar::header(input, self.previous.as_ref()),
             Format::Npy | Format::Npz | Format::Ply | Format::Vtk => Ok(None),
         }
     }

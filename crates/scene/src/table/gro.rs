@@ -5,6 +5,9 @@
 
 use std::ops::Range;
 
+use glam::{DMat3, DVec3};
+
+use super::cell::{Cell, ToldCell, numbers};
 use super::error::TableError;
 use super::fields::{self, Division};
 use super::form::{Form, coordinates_run_together};
@@ -86,7 +89,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
 }
 
 /// Reads the box, which ends a frame.
-fn close(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
+fn close(input: &mut Input<'_>, _: bool) -> Result<Option<ToldCell>, TableError> {
     let expected = "the three or nine numbers of the box after the atoms";
     let number = input.number + 1;
     let Some(line) = input.next()? else {
@@ -98,9 +101,37 @@ fn close(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
     let is_of_digits = line.iter().all(|byte| b"0123456789.- ".contains(byte));
     let is_box = is_box || is_of_digits && memchr::memchr_iter(b'.', line).count() >= 3;
     match is_box {
-        true => Ok(()),
+        true => Ok(cell(number, line)),
         false => Err(LocatedFault::expected(number, line, 0..line.len(), expected).into()),
     }
+}
+
+/// The cell of a box: the lengths of its edges, or all components in the order of the format; `None` if all are 0, as
+/// they are without a box.
+fn cell(number: u64, line: &[u8]) -> Option<ToldCell> {
+    let words = fields::all(line, &Division::Words);
+    let edges = match (numbers::<9>(&words), numbers::<3>(&words)) {
+        (Some([ax, by, cz, ay, az, bx, bz, cx, cy]), _) => DMat3::from_cols(
+            DVec3::new(ax, ay, az),
+            DVec3::new(bx, by, bz),
+            DVec3::new(cx, cy, cz),
+        ),
+        (None, Some(lengths)) => DMat3::from_diagonal(DVec3::from_array(lengths)),
+        (None, None) => {
+            let expected = "three or nine numbers of the box, with spaces between them";
+            return Some(Err(LocatedFault::expected(
+                number,
+                line,
+                0..line.len(),
+                expected,
+            )));
+        }
+    };
+    if edges == DMat3::ZERO {
+        return None;
+    }
+    let cell = Cell::new(edges, DVec3::ZERO);
+    Some(cell.map_err(|message| LocatedFault::in_line(number, line, 0..line.len(), message)))
 }
 
 /// The width of numbers, which is that between their points.

@@ -2,13 +2,16 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
+use super::cell::ToldCell;
 use super::columns::{Nature, Plan, Slot};
+use super::crystal::Crystal;
 use super::error::TableError;
 use super::fields;
-use super::form::{Form, LineKind};
+use super::form::{FixedAtom, Form, LineKind};
 use super::guess::{self, Guess};
 use super::input::{Input, without_return};
 use super::number::{is_missing, parse};
@@ -25,17 +28,36 @@ pub(crate) struct Header {
     /// The number of rows, and what they are called; `None` where the form tells the end.
     pub(crate) count: Option<(u64, &'static str)>,
     /// Reads what has to stand behind the rows, the last line of which may be another one, and refuses rows that are cut.
-    pub(crate) close: fn(&mut Input<'_>, ends_with_row: bool) -> Result<(), TableError>,
+    pub(crate) close: Close,
     /// The length of an ångström, in the table's unit.
     pub(crate) angstrom: f64,
     /// The axes and the origin of positions that are parts of a box.
     pub(crate) scaled: Option<(DMat3, DVec3)>,
+    /// The factors on positions that are lengths.
+    pub(crate) scale: DVec3,
+    /// The cell, where the table tells one before its rows.
+    pub(crate) cell: Option<ToldCell>,
+    /// The atoms that the rows are, one kind after another, where no column tells them.
+    pub(crate) species: Vec<Species>,
+    /// The atoms of a crystal, which were read already.
+    pub(crate) crystal: Option<Arc<Crystal>>,
     /// The assumption about the elements, unless the scene file says which column tells them.
     pub(crate) guess: Option<Guess>,
     /// Columns of text; `None` where the first row tells them.
     pub(crate) texts: Option<Vec<bool>>,
     /// The line that names the columns, for messages, and the part of it that does.
     pub(crate) place: (u64, Vec<u8>, Range<usize>),
+}
+
+/// Reads what has to stand behind the rows, the last line of which may be another one; returns the cell that it tells.
+pub(crate) type Close =
+    fn(&mut Input<'_>, ends_with_row: bool) -> Result<Option<ToldCell>, TableError>;
+
+/// Atoms of one kind, which follow one another.
+#[derive(Clone, Debug)]
+pub(crate) struct Species {
+    pub(crate) count: u64,
+    pub(crate) atom: FixedAtom,
 }
 
 impl Header {
@@ -45,9 +67,13 @@ impl Header {
             names,
             form,
             count: None,
-            close: |_, _| Ok(()),
+            close: |_, _| Ok(None),
             angstrom: 1.0,
             scaled: None,
+            scale: DVec3::ONE,
+            cell: None,
+            species: Vec::new(),
+            crystal: None,
             guess: None,
             texts: None,
             place: (number, line.to_vec(), 0..line.len()),
@@ -60,6 +86,9 @@ impl Header {
         input: &mut Input<'_>,
         request: &Request,
     ) -> Result<Rows, TableError> {
+        if let Some(crystal) = &self.crystal {
+            return crystal.read(self, request);
+        }
         let texts = match &self.texts {
             Some(texts) => texts.clone(),
             None => self.texts_of_first_row(input, request)?,
@@ -69,12 +98,21 @@ impl Header {
             is_text: &|column| texts.get(column).copied().unwrap_or(false),
             angstrom: self.angstrom,
             cell: self.scaled,
+            edges: self.edges(),
+            scale: self.scale,
         };
         let plan = Plan::new(self.names.clone(), request, &nature);
         let plan = plan.map_err(|message| {
             let (number, line, span) = &self.place;
             LocatedFault::in_line(*number, line, span.clone(), message)
         })?;
+        if plan.images.is_some() {
+            match &self.cell {
+                Some(Ok(_)) => {}
+                Some(Err(fault)) => return Err(fault.clone().into()),
+                None => return Err(TableError::NoCell("unwrap")),
+            }
+        }
         let mut form = Cow::Borrowed(&self.form);
         // Whoever names the column knows what is in it.
         let guess = self.guess.as_ref();
@@ -87,6 +125,9 @@ impl Header {
             None => self.doubt_numbers(input, &plan, request)?,
         };
         let mut rows = match self.count {
+            Some(count) if !self.species.is_empty() => {
+                self.read_species(input, &plan, &mut form, count)?
+            }
             Some((count, noun)) => text::read_count(input, &plan, &form, count, noun)?,
             None => text::read(input, &plan, &form, None)?,
         };
@@ -98,7 +139,35 @@ impl Header {
         if let Some(doubt) = doubt {
             rows.remarks.add_guess(doubt);
         }
-        (self.close)(input, rows.ends_with_row)?;
+        let cell = (self.close)(input, rows.ends_with_row)?;
+        rows.cell = cell.or_else(|| self.cell.clone());
+        Ok(rows)
+    }
+
+    /// The edges of the cell, if it is told before the rows and has a volume.
+    fn edges(&self) -> Option<DMat3> {
+        let cell = self.cell.as_ref()?.as_ref().ok()?;
+        Some(cell.edges)
+    }
+
+    /// Reads rows that are atoms of one kind after another.
+    fn read_species(
+        &self,
+        input: &mut Input<'_>,
+        plan: &Plan,
+        form: &mut Cow<'_, Form>,
+        (count, noun): (u64, &'static str),
+    ) -> Result<Rows, TableError> {
+        let mut rows = Rows::new(plan);
+        for species in &self.species {
+            form.to_mut().atom = Some(species.atom.clone());
+            let more = text::read(input, plan, form, Some(species.count))?;
+            let is_cut = more.read < species.count;
+            rows.append(more)?;
+            if is_cut {
+                return Err(text::too_few(input.number, rows.read, count, noun).into());
+            }
+        }
         Ok(rows)
     }
 
@@ -130,6 +199,9 @@ impl Header {
 
     /// Passes over the rows behind the header, and what belongs to them.
     pub(crate) fn skip(&self, input: &mut Input<'_>) -> Result<(), TableError> {
+        if self.crystal.is_some() {
+            return Ok(());
+        }
         let ends_with_row = match self.count {
             Some((count, noun)) => {
                 let found = input.skip_lines(count)?;
@@ -185,6 +257,8 @@ impl Header {
             is_text: &|_| false,
             angstrom: self.angstrom,
             cell: self.scaled,
+            edges: self.edges(),
+            scale: self.scale,
         };
         let plan = Plan::new(self.names.clone(), &of_conditions, &nature).ok()?;
         let lines = input

@@ -7,6 +7,7 @@
 
 use glam::{DMat3, DVec3};
 
+use super::cell::Cell;
 use super::error::TableError;
 use super::fields::{self, Division};
 use super::form::Form;
@@ -17,7 +18,7 @@ use crate::text::LocatedFault;
 
 /// The header of the next step; `None` behind the last one.
 pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
-    let (mut count, mut scaled) = (None, None);
+    let (mut count, mut scaled, mut cell) = (None, None, None);
     // Before it, only the file may end.
     let mut is_begun = input.number == 0;
     loop {
@@ -32,7 +33,14 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
         match words[..] {
             [] => continue,
             [b"ITEM:", b"NUMBER", b"OF", b"ATOMS"] => count = Some(self::count(input)?),
-            [b"ITEM:", b"BOX", b"BOUNDS", ref kinds @ ..] => scaled = Some(bounds(input, kinds)?),
+            [b"ITEM:", b"BOX", b"BOUNDS", ref kinds @ ..] => {
+                let (edges, origin) = bounds(input, kinds)?;
+                scaled = Some((edges, origin));
+                let told = Cell::new(edges, origin);
+                let told = told.map(|cell| cell.periodic_along(is_periodic(kinds)));
+                let fault = |message| LocatedFault::in_line(number, &line, 0..line.len(), message);
+                cell = Some(told.map_err(fault));
+            }
             [b"ITEM:", b"ATOMS", ref names @ ..] => {
                 let Some(count) = count else {
                     let expected = "`ITEM: NUMBER OF ATOMS` before";
@@ -47,6 +55,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
                 return Ok(Some(Header {
                     count: Some((count, "atoms, according to `ITEM: NUMBER OF ATOMS`")),
                     scaled,
+                    cell,
                     ..header
                 }));
             }
@@ -62,6 +71,16 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
             }
         }
         is_begun = true;
+    }
+}
+
+/// The edges along which the box is periodic, by the last words about it: `pp`, or others such as `ff`; all of them if no
+/// words say so.
+fn is_periodic(kinds: &[&[u8]]) -> [bool; 3] {
+    let is_boundary = |kind: &&[u8]| kind.len() == 2 && kind.iter().all(|at| b"pfsm".contains(at));
+    match kinds.last_chunk() {
+        Some(kinds) if kinds.iter().all(is_boundary) => kinds.map(|kind| kind.starts_with(b"p")),
+        _ => [true; 3],
     }
 }
 

@@ -1,18 +1,21 @@
-//! mmCIF: the loop `_atom_site` of a file of the Protein Data Bank, whose models and data blocks are frames.
+//! CIF: the loop `_atom_site` of a file of the Protein Data Bank (mmCIF), whose models and data blocks are frames, or of a
+//! crystal.
 //!
 //! # Source
 //! Hall, Allen and Brown, "The crystallographic information file (CIF)", 1991; the dictionary PDBx/mmCIF.
 
+use super::cell::ToldCell;
+use super::cif::{Items, Lexer};
+use super::crystal;
 use super::error::TableError;
 use super::fields::{self, Division};
-use super::foreign;
 use super::form::{Form, LineKind};
 use super::header::Header;
 use super::input::Input;
 use crate::text::LocatedFault;
 
-/// The category of atoms.
-const CATEGORY: &str = "_atom_site.";
+/// The category of atoms, of molecules and of crystals.
+const CATEGORIES: [&str; 2] = ["_atom_site.", "_atom_site_"];
 const MODEL: &str = "pdbx_PDB_model_num";
 
 /// The header of the next model, behind another one's where that is given; `None` behind the last one.
@@ -33,41 +36,61 @@ pub(crate) fn header(
             return Ok(Some(header));
         }
     }
-    let mut is_crystal = false;
-    let mut is_in_text = false;
+    let (mut items, mut lexer) = (Items::default(), Lexer::default());
     loop {
         let number = input.number + 1;
         let Some(line) = input.next()? else {
-            return match (previous, is_crystal) {
-                (Some(_), _) => Ok(None),
-                (None, true) => Err(LocatedFault::in_line(number, b"", 0..0, foreign::crystal())),
-                (None, false) => Err(LocatedFault::at_end(number, "a loop of `_atom_site.…`")),
-            }
-            .map_err(TableError::from);
+            return match previous {
+                Some(_) => Ok(None),
+                None => {
+                    let expected =
+                        "a loop of `_atom_site.…`, or of `_atom_site_fract_x` and others";
+                    Err(LocatedFault::at_end(number, expected).into())
+                }
+            };
         };
-        // Lines between two that begin with a semicolon are text.
-        is_in_text ^= line.starts_with(b";");
-        let line = line.trim_ascii();
-        is_crystal |= line.starts_with(b"_atom_site_fract_x");
-        if is_in_text || !starts_with(line, CATEGORY) {
-            continue;
+        let is_in_text = lexer.is_in_text();
+        if is_in_text || !items.is_unneeded(line) {
+            lexer.feed(line, |token| items.take(number, line, token));
         }
+        let line = line.trim_ascii();
+        let category = CATEGORIES
+            .iter()
+            .find(|category| starts_with(line, category));
+        let (false, Some(category)) = (is_in_text, category) else {
+            continue;
+        };
+        let is_molecule = *category == CATEGORIES[0];
         if let [_, value, ..] = fields::all(line, &Division::QuotedWords)[..]
             && !value.starts_with(b"#")
         {
+            if !is_molecule {
+                continue;
+            }
             let expected = "a loop of `_atom_site.…`, whose rows are atoms";
             return Err(LocatedFault::expected(number, line, 0..line.len(), expected).into());
         }
         let first = (number, line.to_vec());
-        let mut names = vec![name(line)];
-        while let Some(line) = input.peek()? {
-            let line = line.trim_ascii();
-            if starts_with(line, CATEGORY) {
-                names.push(name(line));
-            } else if kind(line) != LineKind::Other {
+        let mut names = vec![name(line, category)];
+        loop {
+            let number = input.number + 1;
+            let Some(line) = input.peek()? else {
+                break;
+            };
+            if starts_with(line.trim_ascii(), category) {
+                names.push(name(line.trim_ascii(), category));
+            } else if kind(line.trim_ascii()) != LineKind::Other {
                 break;
             }
-            input.next()?;
+            let line = input.next()?.unwrap_or_default();
+            lexer.feed(line, |token| items.take(number, line, token));
+        }
+        let has = |wanted: &str| names.iter().any(|name| name.eq_ignore_ascii_case(wanted));
+        match (has("Cartn_x") && is_molecule, has("fract_x")) {
+            (false, true) => return crystal::header(input, items, names, first).map(Some),
+            // Displacements and the like.
+            (false, false) if !is_molecule => continue,
+            _ => {}
         }
         // Any frame may be read after any other.
         if let Some(previous) = previous
@@ -85,13 +108,14 @@ pub(crate) fn header(
         form.same = input.peek()?.and_then(|row| same(&names, row));
         return Ok(Some(Header {
             close,
+            cell: items.cell_of_molecule(),
             ..Header::new(names, form, (first.0, &first.1))
         }));
     }
 }
 
 /// Doubts a file that ends with an atom: programs write a line `#` behind the loop.
-fn close(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
+fn close(input: &mut Input<'_>, ends_with_row: bool) -> Result<Option<ToldCell>, TableError> {
     let number = input.number + 1;
     match input.peek()? {
         None if ends_with_row => {
@@ -105,7 +129,7 @@ fn close(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
         }
         _ => {}
     }
-    Ok(())
+    Ok(None)
 }
 
 /// The model of a row, which all rows of a frame have.
@@ -123,12 +147,12 @@ fn starts_with(line: &[u8], prefix: &str) -> bool {
 }
 
 /// The name behind that of the category.
-fn name(line: &[u8]) -> String {
+fn name(line: &[u8], category: &str) -> String {
     let word = line
         .split(u8::is_ascii_whitespace)
         .next()
         .unwrap_or_default();
-    String::from_utf8_lossy(&word[CATEGORY.len().min(word.len())..]).into_owned()
+    String::from_utf8_lossy(&word[category.len().min(word.len())..]).into_owned()
 }
 
 fn kind(line: &[u8]) -> LineKind {

@@ -6,9 +6,12 @@
 //! `frames` reads the frames of a file one after another.
 
 mod binary;
+mod cell;
+mod cif;
 mod colormap;
 mod columns;
 mod compression;
+mod crystal;
 mod decoded;
 mod delimited;
 mod element;
@@ -34,7 +37,9 @@ mod number;
 mod packed;
 mod paint;
 mod pdb;
+mod periodic;
 mod ply;
+mod poscar;
 mod pqr;
 mod python;
 mod remarks;
@@ -42,6 +47,7 @@ mod request;
 mod residue;
 mod rows;
 mod source;
+mod symmetry;
 mod text;
 mod time;
 mod unread_arrays;
@@ -49,6 +55,7 @@ mod vtk;
 mod xyz;
 mod zstandard;
 
+pub(crate) use cell::Cell;
 pub(crate) use colormap::{Colormap, index as color_index};
 pub(crate) use columns::{MOST_FILTERS, Test, unit};
 pub(crate) use columns::{has_axis, tells_radius};
@@ -60,6 +67,7 @@ pub(crate) use file_state::FileState;
 pub(crate) use format::{ENDINGS, Format};
 pub(crate) use frames::{FramePlace, Frames};
 pub(crate) use paint::{Categories, Paint};
+pub(crate) use periodic::Periodic;
 pub(crate) use remarks::Remarks;
 pub(crate) use request::{
     Coloring, ColumnRef, Columns, Filter, Missing, RadiusLaw, Request, Value, ValueRange,

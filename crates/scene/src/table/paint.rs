@@ -81,6 +81,17 @@ impl Paint {
         }
     }
 
+    /// Removes the colors of so many spheres at the start.
+    pub(super) fn remove_first(&mut self, count: usize) {
+        match self {
+            Self::Material => {}
+            Self::Colors(colors) => drop(colors.drain(..count)),
+            Self::Elements(numbers) => drop(numbers.drain(..count)),
+            Self::Values(values) => drop(values.drain(..count)),
+            Self::Categories(categories) => drop(categories.indices.drain(..count)),
+        }
+    }
+
     /// Adds others from the same source; returns whether they have too many names together.
     pub(crate) fn append(&mut self, others: Self) -> bool {
         match (self, others) {

@@ -5,11 +5,12 @@
 
 use std::ops::Range;
 
+use super::cell::{Cell, ToldCell, numbers};
 use super::element;
 use super::error::TableError;
-use super::fields::Division;
+use super::fields::{self, Division};
 use super::form::{Form, LineKind, coordinates_run_together};
-use super::header::Header;
+use super::header::{Close, Header};
 use super::input::Input;
 use super::number::parse;
 use super::residue;
@@ -32,11 +33,22 @@ const COLUMNS: [(&str, Range<usize>); 13] = [
     ("element", 76..78),
 ];
 
-/// The header of the next model; `None` behind the last one.
-pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
-    let Some(Model { number, row, close }) = model(input, kind)? else {
+/// The header of the next model, behind another one's where that is given; `None` behind the last one.
+pub(crate) fn header(
+    input: &mut Input<'_>,
+    previous: Option<&Header>,
+) -> Result<Option<Header>, TableError> {
+    let Some(Model {
+        number,
+        row,
+        close,
+        cell,
+    }) = model(input, kind)?
+    else {
         return Ok(None);
     };
+    // It stands before the first of several models.
+    let cell = cell.or_else(|| previous?.cell.clone());
     // Some programs begin all names in the first column.
     let rows = input.head().split(|byte| *byte == b'\n');
     let mut rows = rows.filter(|line| kind(line) == LineKind::Row);
@@ -59,6 +71,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     Ok(Some(Header {
         texts: Some(texts.collect()),
         close,
+        cell,
         ..Header::new(names, form, (number, &row))
     }))
 }
@@ -69,10 +82,8 @@ pub(super) struct Model {
     pub(super) number: u64,
     pub(super) row: Vec<u8>,
     pub(super) close: Close,
+    pub(super) cell: Option<ToldCell>,
 }
-
-/// Checks the lines after the rows of a frame, the last line of which may be one of them.
-pub(super) type Close = fn(&mut Input<'_>, bool) -> Result<(), TableError>;
 
 /// Goes on to the next model of lines that are of these kinds; `None` behind the last one.
 pub(super) fn model(
@@ -80,11 +91,16 @@ pub(super) fn model(
     kind: fn(&[u8]) -> LineKind,
 ) -> Result<Option<Model>, TableError> {
     let is_first = input.number == 0;
-    let mut is_model = false;
-    while let Some(line) = input.peek()? {
+    let (mut is_model, mut cell) = (false, None);
+    loop {
+        let number = input.number + 1;
+        let Some(line) = input.peek()? else {
+            break;
+        };
         match kind(line) {
             LineKind::Row => break,
             LineKind::End => is_model = line.starts_with(b"MODEL"),
+            LineKind::Other if line.starts_with(CELL) => cell = self::cell(number, line),
             LineKind::Other => {}
         }
         input.next()?;
@@ -103,16 +119,51 @@ pub(super) fn model(
         (false, false) => close_frame,
         (false, true) => close_file,
     };
-    Ok(Some(Model { number, row, close }))
+    Ok(Some(Model {
+        number,
+        row,
+        close,
+        cell,
+    }))
+}
+
+/// The record of the cell.
+const CELL: &[u8] = b"CRYST1";
+
+/// The cell of a record; `None` if it has edges of length 1 or 0, as files have that are not of a crystal.
+fn cell(number: u64, line: &[u8]) -> Option<ToldCell> {
+    const PLACES: [Range<usize>; 6] = [6..15, 15..24, 24..33, 33..40, 40..47, 47..54];
+    let fields = fields::all(line, &Division::Fixed(PLACES.to_vec().into()));
+    let words = fields::all(line, &Division::Words);
+    // Some programs write it with spaces alone.
+    let found = numbers::<6>(&fields).or_else(|| numbers::<6>(words.get(1..7)?));
+    let told = match found {
+        Some([a, b, c, ..]) if [a, b, c] == [1.0; 3] || [a, b, c] == [0.0; 3] => return None,
+        Some([a, b, c, alpha, beta, gamma]) => {
+            let cell = Cell::of_lengths([a, b, c], [alpha, beta, gamma]);
+            cell.map_err(|message| LocatedFault::in_line(number, line, 0..line.len(), message))
+        }
+        None => {
+            let expected = "three lengths and three angles of the cell";
+            let start = CELL.len().min(line.len());
+            Err(LocatedFault::expected(
+                number,
+                line,
+                start..line.len(),
+                expected,
+            ))
+        }
+    };
+    Some(told)
 }
 
 /// Refuses a model that nothing ends.
-fn close_model(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
+fn close_model(input: &mut Input<'_>, _: bool) -> Result<Option<ToldCell>, TableError> {
     expect_end(input, "`ENDMDL` after the atoms of this model")
 }
 
 /// Refuses a frame that nothing ends, as others in the file end.
-fn close_frame(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
+fn close_frame(input: &mut Input<'_>, _: bool) -> Result<Option<ToldCell>, TableError> {
     expect_end(
         input,
         "`END` after the atoms of this frame, as in the frames before",
@@ -120,7 +171,7 @@ fn close_frame(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
 }
 
 /// Doubts a file that ends with an atom.
-fn close_file(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
+fn close_file(input: &mut Input<'_>, ends_with_row: bool) -> Result<Option<ToldCell>, TableError> {
     if (ends_with_row || input.is_open_at_end()) && input.peek()?.is_none() {
         let doubt = match ends_with_row {
             true => {
@@ -130,14 +181,14 @@ fn close_file(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableErr
         };
         input.doubt_line(doubt);
     }
-    Ok(())
+    Ok(None)
 }
 
-fn expect_end(input: &mut Input<'_>, expected: &str) -> Result<(), TableError> {
+fn expect_end(input: &mut Input<'_>, expected: &str) -> Result<Option<ToldCell>, TableError> {
     let number = input.number + 1;
     let fault = match input.peek()? {
         None => LocatedFault::at_end(number, expected),
-        Some(line) if line.starts_with(b"END") => return Ok(()),
+        Some(line) if line.starts_with(b"END") => return Ok(None),
         Some(line) => LocatedFault::expected(number, line, 0..line.len(), expected),
     };
     Err(fault.into())

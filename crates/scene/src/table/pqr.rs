@@ -83,7 +83,13 @@ fn check(line: &[u8]) -> Option<(Range<usize>, &'static str)> {
 
 /// The header of the next model; `None` behind the last one.
 pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
-    let Some(Model { number, row, close }) = pdb::model(input, kind)? else {
+    let Some(Model {
+        number,
+        row,
+        close,
+        cell,
+    }) = pdb::model(input, kind)?
+    else {
         return Ok(None);
     };
     let form = Form {
@@ -108,6 +114,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     Ok(Some(Header {
         texts: Some(texts.into()),
         close,
+        cell,
         ..Header::new(NAMES.map(String::from).into(), form, (number, &row))
     }))
 }

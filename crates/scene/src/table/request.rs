@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::columns::Test;
 use super::element::Radii;
+use super::periodic::Periodic;
 
 /// The settings by which a table is read.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +30,8 @@ pub(crate) struct Request {
     pub(crate) missing: Missing,
     /// The conditions on rows that are kept.
     pub(crate) keep: Vec<Filter>,
+    /// The cells that are shown.
+    pub(crate) periodic: Periodic,
 }
 
 /// A condition on a column.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use marbles_core::Sphere;
 
+use super::cell::ToldCell;
 use super::columns::{Plan, RadiusSource, Slot, ValueSource};
 use super::elements::{Atom, AtomRadius};
 use super::error::TableError;
@@ -18,6 +19,8 @@ use crate::text::LocatedFault;
 pub(crate) struct Rows {
     /// The number of rows that were read, those that are not kept among them.
     pub(crate) read: u64,
+    /// The number of rows that were kept, if each of them may be several spheres.
+    pub(crate) kept: Option<u64>,
     /// The last line of a text is a row.
     pub(crate) ends_with_row: bool,
     pub(crate) spheres: Vec<Sphere>,
@@ -34,6 +37,8 @@ pub(crate) struct Rows {
     pub(crate) is_right_handed: bool,
     /// The values are times, in seconds.
     pub(crate) has_times: bool,
+    /// The cell, where the table tells one.
+    pub(crate) cell: Option<ToldCell>,
 }
 
 /// The numbers of a row, by [`Slot`].
@@ -62,6 +67,7 @@ impl Rows {
     pub(crate) fn new(plan: &Plan) -> Self {
         Self {
             read: 0,
+            kept: None,
             ends_with_row: false,
             spheres: Vec::new(),
             paint: Paint::new(plan.coloring),
@@ -71,6 +77,7 @@ impl Rows {
             remarks: Remarks::of_plan(plan),
             is_right_handed: false,
             has_times: false,
+            cell: None,
         }
     }
 
@@ -131,6 +138,10 @@ impl Rows {
             for (axis, fixed) in plan.fixed.iter().enumerate() {
                 center[axis] = fixed.unwrap_or(center[axis]);
             }
+        }
+        if let Some(edges) = plan.images {
+            let images = [0, 1, 2].map(|axis| number(Slot::Image(axis)));
+            center += edges * DVec3::from_array(images);
         }
         let sphere = Sphere::new(center, radius).map_err(|_| "a finite center and radius")?;
         match &mut self.paint {

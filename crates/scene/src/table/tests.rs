@@ -14,8 +14,10 @@ use crate::Scene;
 use crate::values::from_srgb;
 
 mod atoms;
+mod cells;
 mod colors;
 mod compressed;
+mod crystals;
 mod csv;
 mod cut;
 mod elements;
@@ -27,6 +29,7 @@ mod matrix;
 mod misread;
 mod npy;
 mod ply;
+mod poscars;
 mod rows;
 mod vtk;
 mod xyz;

@@ -285,7 +285,7 @@ fn placed(expected: String, line: &[u8], field: Range<usize>, form: &Form) -> St
 
 /// Reads the row in the line with this number, which is kept.
 #[inline(always)]
-fn read_line(
+pub(super) fn read_line(
     line: &[u8],
     number: u64,
     plan: &Plan,

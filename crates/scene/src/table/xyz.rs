@@ -3,10 +3,15 @@
 //! An extended comment says in `Properties=name:type:columns:…` what the columns are; without one
 //! they are the element and its place, and what follows is passed over.
 
+use std::ops::Range;
+
+use glam::{DMat3, DVec3};
+
+use super::cell::{Cell, ToldCell, numbers};
 use super::columns::{MOST_COLUMNS, Slot, components};
 use super::element;
 use super::error::TableError;
-use super::fields::Division;
+use super::fields::{self, Division};
 use super::form::{ElementOf, Form, LineKind};
 use super::guess::{self, Guess};
 use super::header::Header;
@@ -51,6 +56,7 @@ pub(crate) fn header(
     };
     let header = Header::new(columns, form, (first + 1, &comment));
     Ok(Some(Header {
+        cell: cell(&comment, first + 1),
         count: Some((count, noun)),
         guess,
         ..header
@@ -118,24 +124,65 @@ fn count(input: &mut Input<'_>) -> Result<u64, TableError> {
     })
 }
 
-/// The names of the columns that an extended comment lists.
-fn columns(comment: &[u8], number: u64) -> Result<Option<Vec<String>>, LocatedFault> {
-    const KEY: &[u8] = b"Properties";
-    let keys = comment.windows(KEY.len()).enumerate();
-    let mut keys = keys.filter(|(_, part)| part.eq_ignore_ascii_case(KEY));
-    // Spaces may stand around the sign.
+/// The place of the value that a comment gives to a key: `Key=…`, perhaps with spaces around the sign.
+fn value_of(comment: &[u8], key: &[u8]) -> Option<usize> {
+    let keys = comment.windows(key.len()).enumerate();
+    let mut keys = keys.filter(|(_, part)| part.eq_ignore_ascii_case(key));
     let spaces = |from: usize| {
         let rest = comment[from..].iter();
         from + rest.take_while(|byte| **byte == b' ').count()
     };
     let sign = keys.find_map(|(at, _)| {
-        let sign = spaces(at + KEY.len());
+        let sign = spaces(at + key.len());
         (comment.get(sign) == Some(&b'=')).then_some(sign)
-    });
-    let Some(sign) = sign else {
+    })?;
+    Some(spaces(sign + 1))
+}
+
+/// The words between quotation marks or brackets that a comment gives to a key, and their place.
+fn words<'a>(comment: &'a [u8], key: &[u8]) -> Option<(Vec<&'a [u8]>, Range<usize>)> {
+    let start = value_of(comment, key)?;
+    let end = match comment.get(start)? {
+        quote @ (b'"' | b'\'') => *quote,
+        b'{' => b'}',
+        b'[' => b']',
+        _ => return None,
+    };
+    let length = memchr::memchr(end, &comment[start + 1..])?;
+    let span = start + 1..start + 1 + length;
+    let words = fields::all(&comment[span.clone()], &Division::Words);
+    Some((words, span))
+}
+
+/// The cell that an extended comment tells: `Lattice` has the three edges one after another, `Origin` the corner, and
+/// `pbc` says along which edges the cell repeats.
+fn cell(comment: &[u8], number: u64) -> Option<ToldCell> {
+    let (lattice, span) = words(comment, b"Lattice")?;
+    let told = match numbers::<9>(&lattice) {
+        Some(edges) => {
+            let origin = words(comment, b"Origin").and_then(|(words, _)| numbers::<3>(&words));
+            let edges = DMat3::from_cols_array(&edges);
+            let told = Cell::new(edges, DVec3::from_array(origin.unwrap_or_default()));
+            told.map_err(|message| LocatedFault::in_line(number, comment, span, message))
+        }
+        None => {
+            let expected = "the nine numbers of the edges of the cell";
+            Err(LocatedFault::expected(number, comment, span, expected))
+        }
+    };
+    let pbc = words(comment, b"pbc").map(|(words, _)| words);
+    let is_periodic = match pbc.as_deref() {
+        Some([a, b, c]) => [a, b, c].map(|word| !b"Ff0".contains(&word[0])),
+        _ => [true; 3],
+    };
+    Some(told.map(|cell| cell.periodic_along(is_periodic)))
+}
+
+/// The names of the columns that an extended comment lists.
+fn columns(comment: &[u8], number: u64) -> Result<Option<Vec<String>>, LocatedFault> {
+    let Some(start) = value_of(comment, b"Properties") else {
         return Ok(None);
     };
-    let start = spaces(sign + 1);
     let is_quoted = comment.get(start) == Some(&b'"');
     let start = start + usize::from(is_quoted);
     let is_end = |byte: &u8| byte.is_ascii_whitespace() || *byte == b'"';

@@ -7,7 +7,7 @@ mod rotation;
 mod words;
 
 pub(crate) use color::{Color, from_srgb, linear};
-pub(crate) use point::{FrameRange, Point, Shift};
+pub(crate) use point::{FrameRange, Point, Repeat, Shift};
 pub(crate) use quantity::{
     Amplitude, Coordinate, Degrees, Every, Exponent, FieldOfView, Fill, FocalLength, Frame,
     FrameCount, FramesPerSecond, GrainSize, ImageSide, MOST_FRAMES, OutlineUnits, OutlineWidth,

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::quantity::{Coordinate, Frame, MOST_FRAMES};
+use super::quantity::{CellCount, Coordinate, Frame, MOST_FRAMES};
 use crate::text::{Read, Slice, read_tuple};
 
 /// A point or a vector of the world, the origin by default.
@@ -18,6 +18,23 @@ pub(crate) struct Shift(pub(crate) DVec2);
 pub(crate) struct FrameRange {
     pub(crate) first: i32,
     pub(crate) last: i32,
+}
+
+/// The number of cells along each edge, 1 by default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Repeat(pub(crate) [u32; 3]);
+
+impl Default for Repeat {
+    fn default() -> Self {
+        Self([1; 3])
+    }
+}
+
+impl<'t> Read<'t> for Repeat {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let counts: [CellCount; 3] = read_tuple(slice, "three whole numbers `(a, b, c)`")?;
+        Some(Self(counts.map(u32::from)))
+    }
 }
 
 impl<'t> Read<'t> for Point {

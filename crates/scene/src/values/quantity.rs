@@ -95,6 +95,8 @@ quantities! {
     FrameCount(i32): "a whole number of frames from 1 to 1000000", |n| (1..=MOST_FRAMES).contains(&n), default 120;
     /// One of so many steps.
     Every(u32): "a whole number, at least 1", |n| n >= 1, default 1;
+    /// A number of cells side by side.
+    CellCount(u32): "a whole number of cells, at least 1", |n| n >= 1, default 1;
     /// The seed of a rough surface.
     Seed(u64): "a whole number from 0 to 18446744073709551615", |_| true, default 0;
 }

@@ -1,5 +1,7 @@
 //! The plan by which columns are read that are stored in ways known before.
 
+use glam::DVec3;
+
 use super::super::kind::Kind;
 use super::super::request::{Coloring, Request};
 use super::plan::{Nature, Plan};
@@ -17,6 +19,8 @@ pub(crate) fn plan_of_kinds(
 ) -> Result<Plan, String> {
     let kind = |column: usize| kinds.get(column).copied().unwrap_or(Kind::Other(0));
     let nature = Nature {
+        edges: None,
+        scale: DVec3::ONE,
         is_byte: &|column| kind(column).is_byte(),
         is_text: &|column| kind(column).is_text(),
         angstrom: 1.0,

@@ -42,6 +42,10 @@ pub(crate) struct Nature<'a> {
     pub(crate) angstrom: f64,
     /// The axes and the origin of the cell, where the table has one.
     pub(crate) cell: Option<(DMat3, DVec3)>,
+    /// The edges of the cell, where the table tells it before its rows.
+    pub(crate) edges: Option<DMat3>,
+    /// The factors on positions that are lengths.
+    pub(crate) scale: DVec3,
 }
 
 /// The purposes of a column.
@@ -95,6 +99,8 @@ pub(crate) struct Plan {
     pub(crate) constants: [f64; Slot::COUNT],
     /// The axes and the origin of the positions, where they are not those of the table's lengths.
     pub(crate) axes: Option<(DMat3, DVec3)>,
+    /// The edges by which image flags move particles, where these do.
+    pub(crate) images: Option<DMat3>,
     /// The coordinates that are constant, whatever the axes.
     pub(crate) fixed: [Option<f64>; 3],
     /// Sentences about what was assumed.
@@ -139,6 +145,7 @@ impl Plan {
             hides_missing: request.missing == Missing::Hide,
             constants: [0.0; Slot::COUNT],
             axes: None,
+            images: None,
             fixed: columns.position.each_ref().map(|chosen| match chosen {
                 Some(ColumnRef::Constant(number)) => Some(*number),
                 _ => None,
@@ -156,7 +163,15 @@ impl Plan {
         }
         let positions = [Slot::X, Slot::Y, Slot::Z].map(|slot| plan.name_of(slot));
         let are_chosen = columns.position.iter().all(Option::is_some);
+        let are_unwrapped = positions::are_unwrapped(positions);
         plan.axes = positions::axes(positions, are_chosen, nature.cell)?;
+        if plan.axes.is_none() && nature.scale != DVec3::ONE {
+            plan.axes = Some((DMat3::from_diagonal(nature.scale), DVec3::ZERO));
+        }
+        if request.periodic.unwraps && !are_unwrapped {
+            plan.take_images()?;
+            plan.images = Some(nature.edges.unwrap_or(DMat3::ZERO));
+        }
         let colors = [Slot::Red, Slot::Green, Slot::Blue];
         let has_colors = colors
             .into_iter()
@@ -327,6 +342,28 @@ impl Plan {
             None => self.names.of(slot)?,
         };
         self.use_for(column, slot);
+        Ok(())
+    }
+
+    /// Uses the columns of image flags.
+    fn take_images(&mut self) -> Result<(), String> {
+        for axis in 0..3 {
+            let slot = Slot::Image(axis);
+            if self.names.find_slot(slot).is_none() {
+                let name = slot.names()[0];
+                let names = self.names.list();
+                let hint = match self.names.find("xu") {
+                    Some(_) => {
+                        " (`columns: (x: \"xu\", y: \"yu\", z: \"zu\")` uses positions that are unwrapped)"
+                    }
+                    None => "",
+                };
+                return Err(format!(
+                    "expected image flags in the columns `ix`, `iy` and `iz` for `unwrap`, found no `{name}` among {names}{hint}"
+                ));
+            }
+            self.take(slot, None)?;
+        }
         Ok(())
     }
 

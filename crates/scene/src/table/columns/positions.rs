@@ -57,6 +57,12 @@ pub(super) fn axes(
     }
 }
 
+/// Says whether positions in columns of these names go on beyond the cell.
+pub(super) fn are_unwrapped(names: [Option<&str>; 3]) -> bool {
+    let mut names = names.into_iter().flatten().peekable();
+    names.peek().is_some() && names.all(|name| kind(name).is_unwrapped)
+}
+
 fn kind(name: &str) -> Kind {
     let name = name.to_ascii_lowercase();
     let behind = name.strip_prefix(['x', 'y', 'z']).unwrap_or_default();

@@ -14,6 +14,8 @@ pub(crate) enum Slot {
     Element,
     /// A component of the vector whose length is the value.
     Vector(u8),
+    /// The cells by which a particle has left the first one, along an edge.
+    Image(u8),
     /// Some condition is on it.
     Filter(u8),
 }
@@ -34,7 +36,7 @@ pub(crate) const MOST_FILTERS: usize = 16;
 
 impl Slot {
     /// The number of purposes for which a row holds a number.
-    pub(crate) const COUNT: usize = 12;
+    pub(crate) const COUNT: usize = 15;
 
     /// The place of the number among those of a row.
     #[inline(always)]
@@ -51,21 +53,25 @@ impl Slot {
             // No number of these two is held.
             Self::Element | Self::Filter(_) => 8,
             Self::Vector(component) => 9 + usize::from(component) % 3,
+            Self::Image(axis) => 12 + usize::from(axis) % 3,
         }
     }
 
     /// The name that a column for this has, or one of the others.
     pub(crate) fn names(self) -> &'static [&'static str] {
         match self {
-            Self::X => &["x", "xu", "xs", "xsu", "cartn_x"],
-            Self::Y => &["y", "yu", "ys", "ysu", "cartn_y"],
-            Self::Z => &["z", "zu", "zs", "zsu", "cartn_z"],
+            Self::X => &["x", "xu", "xs", "xsu", "cartn_x", "fract_x"],
+            Self::Y => &["y", "yu", "ys", "ysu", "cartn_y", "fract_y"],
+            Self::Z => &["z", "zu", "zs", "zsu", "cartn_z", "fract_z"],
             Self::Radius => &["radius", "r", "particle radius", "particle_radius", "radii"],
             Self::Red => &["red", "r"],
             Self::Green => &["green", "g"],
             Self::Blue => &["blue", "b"],
             Self::Value => &["value"],
             Self::Element => &["element", "species", "symbol", "type_symbol"],
+            Self::Image(0) => &["ix"],
+            Self::Image(1) => &["iy"],
+            Self::Image(_) => &["iz"],
             Self::Vector(_) | Self::Filter(_) => &[],
         }
     }
@@ -76,6 +82,7 @@ impl Slot {
         match self {
             Self::Value | Self::Vector(_) if allowed.may_miss && number.is_nan() => None,
             Self::Filter(_) | Self::Element => None,
+            Self::Image(_) => (number.fract() != 0.0).then_some("a whole number of cells"),
             _ if !number.is_finite() => Some("a finite number"),
             Self::Radius if number <= 0.0 && !allowed.has_any_radius => {
                 Some("a radius greater than 0")

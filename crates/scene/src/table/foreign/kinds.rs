@@ -17,8 +17,7 @@ const TRAJECTORY: &str =
     "save it as extended XYZ, PDB or a LAMMPS dump, with MDAnalysis, MDTraj or ASE";
 const MOLECULE: &str =
     "save the atoms as XYZ or PDB, with Open Babel (`obabel FILE -O atoms.xyz`) or ASE";
-pub(super) const CELL: &str =
-    "save it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO";
+const CELL: &str = "save it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO";
 const GRID: &str = "save the data as CSV or as legacy VTK, in ParaView by File > Save Data";
 const COLUMNS: &str = "save the columns as NPY, NPZ or CSV, with Python (h5py, pandas or astropy)";
 const SHEET: &str = "save the sheet as CSV, with LibreOffice (`soffice --convert-to csv FILE`)";
@@ -159,9 +158,9 @@ pub(super) const KINDS: &[Foreign] = &[
     ),
     of("a structure in XSF", CELL, &["xsf", "axsf"], &[]),
     of(
-        "a structure of VASP (POSCAR)",
+        "a charge density of VASP",
         CELL,
-        &["poscar", "contcar", "vasp", "xdatcar", "chgcar"],
+        &["chgcar", "parchg", "locpot"],
         &[],
     ),
     of(

@@ -4,7 +4,7 @@ mod kinds;
 mod texts;
 
 pub(crate) use self::kinds::Foreign;
-use self::kinds::{CELL, KINDS};
+use self::kinds::KINDS;
 
 /// The kind of files whose names end so.
 pub(super) fn by_ending(ending: &str) -> Option<&'static Foreign> {
@@ -48,11 +48,4 @@ pub(super) fn is_cif(head: &[u8]) -> bool {
         line.get(..5)
             .is_some_and(|start| start.eq_ignore_ascii_case(b"data_"))
     })
-}
-
-/// Why a crystal's CIF is no table.
-pub(super) fn crystal() -> String {
-    format!(
-        "expected coordinates `_atom_site.Cartn_x`, found the CIF of a crystal, with fractional coordinates: {CELL}"
-    )
 }

@@ -39,12 +39,6 @@ pub(super) fn ending(head: &[u8]) -> Option<&'static str> {
     if is_data_of_lammps(&lines) {
         return Some("lmp");
     }
-    if (2..5).all(|number| numbers(line(number)) == Some(3))
-        && numbers(line(1)).is_some_and(|count| count == 1 || count == 3)
-        && is_poscar(line(5), line(6))
-    {
-        return Some("poscar");
-    }
     // Lines of a table have as many fields each.
     let grid = (2..6).all(|number| matches!(numbers(line(number)), Some(4 | 5)));
     (grid && numbers(line(3)) == Some(4) && numbers(line(6)) == Some(5)).then_some("cube")
@@ -58,25 +52,6 @@ fn numbers(line: &[u8]) -> Option<usize> {
         .all(|word| parse(word, false).is_some())
         .then_some(words.len())
         .filter(|count| *count > 0)
-}
-
-/// Says whether lines have the names of elements and their counts, or counts alone.
-fn is_poscar(names: &[u8], counts: &[u8]) -> bool {
-    let is_count = |word: &&[u8]| word.iter().all(u8::is_ascii_digit);
-    let is_name = |word: &&[u8]| word.first().is_some_and(u8::is_ascii_alphabetic);
-    let [names, counts] = [names, counts].map(|line| fields::all(line, &Division::Words));
-    let of_counts = !names.is_empty() && names.iter().all(is_count);
-    let is_kind = counts.first().is_some_and(|word| {
-        matches!(
-            word.first().map(u8::to_ascii_lowercase),
-            Some(b'd' | b'c' | b'k' | b's')
-        )
-    });
-    let named = !names.is_empty()
-        && names.len() == counts.len()
-        && names.iter().all(is_name)
-        && counts.iter().all(is_count);
-    named || of_counts && is_kind
 }
 
 fn is_xsf(lines: &[&[u8]]) -> bool {

@@ -145,7 +145,4 @@ fn mmcif_is_read_model_by_model() {
     assert_eq!(spheres(&scene("a.cif", &text, "")), expected);
     let residue = "keep: [(\"residue\", Is(\"C A\"))]";
     assert_eq!(spheres(&scene("a.cif", &text, residue)), expected);
-    let crystal = "data_x\nloop_\n_atom_site_label\n_atom_site_fract_x\nNa 0.5\n";
-    let message = refusal("a.cif", crystal, "");
-    assert!(message.contains("save it as XYZ"), "{message}");
 }

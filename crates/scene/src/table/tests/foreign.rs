@@ -14,8 +14,6 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
     let mol2 = "# by hand\n@<TRIPOS>MOLECULE\nwater\n3 2\nSMALL\n@<TRIPOS>ATOM\n1 O 0 0 0 O.3\n";
     let sdf = "water\n  made\n\n  3  2  0  0  0  0  0  0  0  0999 V2000\n    0.0  0.0  0.0 O   0\n";
     let lammps = "LAMMPS data file\n\n2 atoms\n1 atom types\n0 1 xlo xhi\n\nAtoms # atomic\n\n1 1 0 0 0\n2 1 1 1 1\n";
-    let poscar = "salt\n5.64\n1 0 0\n0 1 0\n0 0 1\nNa Cl\n1 1\nDirect\n0 0 0\n.5 .5 .5\n";
-    let old = poscar.replace("Na Cl\n", "");
     let cube = "title\nmade\n1 0.0 0.0 0.0\n2 1.0 0.0 0.0\n2 0.0 1.0 0.0\n2 0.0 0.0 1.0\n8 0.0 0.1 0.2 0.3\n1 2 3\n";
     let xsf = "# by hand\nCRYSTAL\nPRIMVEC\n1 0 0\n0 1 0\n0 0 1\nPRIMCOORD\n1 1\n8 0 0 0\n";
     let vtu =
@@ -42,13 +40,6 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
             "an input of LAMMPS",
             "write_dump",
         ),
-        (
-            &["a.poscar", "POSCAR", "a.vasp"],
-            poscar.as_bytes(),
-            "a structure of VASP",
-            "ASE",
-        ),
-        (&["CONTCAR"], old.as_bytes(), "a structure of VASP", "ASE"),
         (
             &["CONFIG"],
             b"DL_POLY: salt\n2 1 4\n1.0 0.0 0.0\n0.0 1.0 0.0\n0.0 0.0 1.0\nNa 1\n0.1 0.2 0.3\n",
@@ -148,21 +139,6 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
                 "{name}: {message}"
             );
         }
-    }
-}
-
-#[test]
-fn crystals_say_what_their_coordinates_are() {
-    let crystal = "# by hand\ndata_salt\n_cell_length_a 5.64\nloop_\n_atom_site_label\n_atom_site_fract_x\nNa1 0.5\n";
-    for name in ["a.cif", "a"] {
-        assert_eq!(
-            refusal(name, crystal, ""),
-            format!(
-                "{name}:8:1: expected coordinates `_atom_site.Cartn_x`, found the CIF of a crystal, with \
-                 fractional coordinates: save \
-                 it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO"
-            )
-        );
     }
 }
 

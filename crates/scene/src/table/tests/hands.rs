@@ -55,6 +55,9 @@ pub(super) fn table(ending: &str) -> (Vec<u8>, bool) {
         "pdb" | "ent" | "pdbqt" => pdb,
         "pqr" => lines(|id, [x, y, z]| format!("ATOM {id} C LIG 1 {x} {y} {z} 0.5 1.7\n")),
         "cif" | "mmcif" | "pdbx" => format!("{loop_of_atoms}{words}#\n"),
+        "poscar" | "contcar" | "xdatcar" | "vasp" => {
+            format!("C\n1\n9 0 0\n0 9 0\n0 0 9\nC\n4\nCartesian\n{words}")
+        }
         "vtk" => format!(
             "# vtk DataFile Version 3.0\np\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n{words}"
         ),

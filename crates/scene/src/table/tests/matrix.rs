@@ -53,6 +53,13 @@ fn frames(ending: &str, format: Format) -> (Vec<u8>, usize, Ends) {
             let start = all.len() - 96;
             (all, start, Ends::AtBytes)
         }
+        Format::Vasp => {
+            let first = text.replace("Cartesian", "Direct configuration= 1");
+            let (header, _) = text.split_at(text.find("Cartesian").unwrap());
+            let second = first[header.len()..].replace("= 1", "= 2");
+            let start = first.len();
+            ((first + &second).into_bytes(), start, Ends::AtBytes)
+        }
         Format::Npz => (whole, 0, Ends::AtBytes),
         Format::Ply | Format::Vtk => (whole, 0, Ends::AtLines),
     }

@@ -29,6 +29,13 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
         TableError::OutOfMemory(count) => {
             return format!("expected a table that fits into memory, found {count} rows");
         }
+        TableError::InScene(message) => return message.clone(),
+        TableError::NoCell(field) => {
+            return format!(
+                "expected a table with a cell for `{field}`, found none in {shown} (extended XYZ with `Lattice`, PDB, CIF, \
+                 GRO, POSCAR and dumps of LAMMPS have one)"
+            );
+        }
         TableError::Changed => {
             return format!(
                 "expected the table {shown} to stay the same while its frames are rendered, found a change: start \

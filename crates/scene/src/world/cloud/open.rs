@@ -15,7 +15,7 @@ use super::settings::Cloud;
 use super::steps::{self, Steps};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
-use crate::table::{Frames, Remarks, Rows, TableError};
+use crate::table::{Cell, Frames, Remarks, Rows, TableError};
 use crate::text::{Fault, harmless, quoted};
 
 /// A cloud whose steps are known and can be read.
@@ -52,6 +52,10 @@ pub(crate) struct Step {
     pub(super) remarks: Remarks,
     /// The values are times, in seconds.
     pub(crate) has_times: bool,
+    /// The rows that were kept.
+    pub(crate) kept: u64,
+    /// The cell, where the table tells one that has a volume.
+    pub(crate) cell: Option<Cell>,
 }
 
 /// The warning about a table with z up whose axes the scene leaves open, and whose format is left-handed.
@@ -234,8 +238,11 @@ impl OpenCloud {
             is_right_handed,
             remarks,
             has_times,
+            kept,
+            cell,
             ..
         } = rows;
+        let kept = kept.unwrap_or(spheres.len() as u64);
         let is_right_handed = self.place(&mut spheres, is_right_handed)?;
         self.note(step, &remarks);
         let mut learned = self.learned.clone();
@@ -253,6 +260,8 @@ impl OpenCloud {
             is_right_handed,
             remarks,
             has_times,
+            kept,
+            cell: cell.and_then(Result::ok),
         })
     }
 
@@ -374,7 +383,11 @@ impl OpenCloud {
             TableError::Fault(fault) => CloudError::Table(path.to_owned(), fault),
             error => {
                 let message = explain(&self.name_of(path), path, &error);
-                let fault = Fault::new(self.cloud.place.clone(), message);
+                let place = match error {
+                    TableError::NoCell(_) | TableError::InScene(_) => &self.cloud.periodic_place,
+                    _ => &self.cloud.place,
+                };
+                let fault = Fault::new(place.clone(), message);
                 match error {
                     TableError::Changed => CloudError::Changed(fault),
                     _ => CloudError::Scene(fault),

@@ -8,9 +8,9 @@ use super::super::placement::{Placement, turn};
 use super::coloring::Scale;
 use super::steps::Timeline;
 use crate::file::{self, ElementRadii, Keep, TakenFrames};
-use crate::table::{Coloring, Filter, MOST_FILTERS, Radii, RadiusLaw, Request, Test};
+use crate::table::{Coloring, Filter, MOST_FILTERS, Periodic, Radii, RadiusLaw, Request, Test};
 use crate::text::{Placed, optional, refuse};
-use crate::values::{Every, Flag, Speed};
+use crate::values::{Every, Flag, Repeat, Speed};
 
 /// A cloud of the scene file whose table is not yet read.
 #[derive(Clone, Debug)]
@@ -23,11 +23,13 @@ pub(crate) struct Cloud {
     /// All frames of its file are steps.
     pub(super) takes_all: bool,
     pub(super) timeline: Timeline,
-    pub(super) request: Request,
+    pub(crate) request: Request,
     pub(super) scale: Scale,
     pub(super) placement: Placement,
     /// The place of `radii`, in bytes of the scene file.
     pub(super) radii_place: Range<usize>,
+    /// The place of the first field about the cell of the table.
+    pub(super) periodic_place: Range<usize>,
 }
 
 impl Cloud {
@@ -122,9 +124,11 @@ impl Cloud {
                 value: own_value.or(value),
                 missing: cloud.missing.get()?,
                 keep: filters(&cloud.keep)?,
+                periodic: periodic(cloud)?,
             },
             scale,
             radii_place: cloud.radii.place.clone(),
+            periodic_place: periodic_place(cloud),
             placement: Placement {
                 is_centered: cloud.center.get().map(|Flag(flag)| flag)?,
                 middle: None,
@@ -136,6 +140,37 @@ impl Cloud {
             },
         })
     }
+}
+
+/// The cells that are shown.
+fn periodic(cloud: &file::Cloud) -> Option<Periodic> {
+    let flag = |flag: &Placed<Flag>| flag.get().map(|Flag(flag)| flag);
+    let periodic = Periodic {
+        repeat: cloud.repeat.get()?.0,
+        wraps: flag(&cloud.wrap)?,
+        unwraps: flag(&cloud.unwrap)?,
+        shows_edges: flag(&cloud.edges)?,
+    };
+    if periodic.wraps && periodic.unwraps {
+        let message = "expected `wrap` or `unwrap`, found both";
+        return refuse(cloud.unwrap.place.clone(), message);
+    }
+    Some(periodic)
+}
+
+/// The place of the first field about the cell of the table, which is empty if there is none.
+fn periodic_place(cloud: &file::Cloud) -> Range<usize> {
+    let flags = [&cloud.wrap, &cloud.unwrap, &cloud.edges];
+    let is_on = |flag: &&&Placed<Flag>| flag.get().is_some_and(|Flag(is_on)| is_on);
+    let is_repeated = cloud
+        .repeat
+        .get()
+        .is_some_and(|Repeat(counts)| counts != [1; 3]);
+    let place = match is_repeated {
+        true => Some(&cloud.repeat.place),
+        false => flags.iter().find(is_on).map(|flag| &flag.place),
+    };
+    place.cloned().unwrap_or_default()
 }
 
 /// The conditions on rows that are kept.

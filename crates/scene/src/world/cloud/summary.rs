@@ -6,7 +6,8 @@ use super::CloudError;
 use super::open::{OpenCloud, UNWATCHED, gone};
 use super::steps::Steps;
 use crate::table::{
-    Coloring, ColumnRef, Columns, Frames, Missing, Paint, Request, TableError, Value, unit,
+    Coloring, ColumnRef, Columns, Frames, Missing, Paint, Periodic, Request, TableError, Value,
+    unit,
 };
 
 /// The most columns that are summed up: each is read on its own.
@@ -121,6 +122,7 @@ impl OpenCloud {
             coloring: Some(coloring),
             missing: Missing::Color(DVec3::ZERO),
             keep: Vec::new(),
+            periodic: Periodic::default(),
             // Of other columns nothing is looked at.
             columns: Columns {
                 position: [(); 3].map(|()| Some(ColumnRef::Constant(0.0))),
