@@ -76,6 +76,8 @@ pub(super) fn read_table(input: &Input<'_>) -> bool {
         ", value: \"kind\", palette: {}",
         ", keep: [(\"id\", Every(2))]",
         ", columns: (x: 1, y: 2, z: 3)",
+        ", repeat: (2, 1, 3), edges: true, wrap: true",
+        ", unwrap: true, frames: All",
         ", color: Element, radii: VanDerWaals",
         ", radii: {\"O\": 1, \"MW\": 2}, palette: {\"H\": 0.5, \"1\": 1}, up: Z",
         ", keep: [(\"element\", Is(\"O\"))], columns: (z: Constant(0), radius_law: Exponential(0.1))",

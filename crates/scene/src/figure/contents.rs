@@ -9,7 +9,9 @@ use marbles_core::Sphere;
 use super::colors::{self, Colors};
 use super::reader::{Reader, first, ignoring_positions};
 use super::spacing;
-use crate::table::{Coloring, ColumnRef, Columns, Paint, Request, has_axis, tells_radius};
+use crate::table::{
+    Coloring, ColumnRef, Columns, Paint, Periodic, Radii, Request, has_axis, tells_radius,
+};
 
 /// The contents of a table, as far as a figure depends on them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +30,10 @@ pub(super) struct Contents {
     pub(super) has_z_up: bool,
     /// The axes are right-handed.
     pub(super) is_right_handed: bool,
+    /// The table lists the atoms of a crystal's cell.
+    pub(super) is_crystal: bool,
+    /// The table has a cell that can be repeated.
+    pub(super) has_cell: bool,
     /// The table has frames after the first.
     pub(super) has_more: bool,
 }
@@ -39,13 +45,22 @@ impl Contents {
     }
 
     fn try_read(path: &Path) -> Option<Self> {
-        let names = first(path, &ignoring_positions())?.1;
+        let (facts, names) = first(path, &ignoring_positions())?;
+        let is_crystal = facts.is_crystal;
         let has_elements = names.element_column.is_some();
         let names = names.columns;
         let layout = Layout::of(path, &names);
         let has_radii = has_elements || tells_radius(&names) || layout.has_radius();
         let request = Request {
             radius: (!has_radii).then_some(1.0),
+            radii: match is_crystal {
+                true => Radii::Covalent,
+                false => Radii::default(),
+            },
+            periodic: Periodic {
+                shows_edges: is_crystal,
+                ..Periodic::default()
+            },
             columns: layout.columns(),
             ..Request::default()
         };
@@ -54,12 +69,14 @@ impl Contents {
             return Some(Self {
                 columns: layout.text(),
                 radius: request.radius,
+                is_crystal,
                 ..Self::default()
             });
         };
         let is_colored = !matches!(rows.paint, Paint::Material);
         let radius = (!has_radii).then(|| spacing::radius(&rows.spheres));
         let is_right_handed = rows.is_right_handed;
+        let has_cell = matches!(rows.cell, Some(Ok(_)));
         let mut spheres = rows.spheres;
         for sphere in &mut spheres {
             let center = in_scene(sphere.center(), is_right_handed, facts.has_z_up);
@@ -78,6 +95,8 @@ impl Contents {
             is_colored,
             has_z_up: facts.has_z_up,
             is_right_handed,
+            is_crystal,
+            has_cell,
             has_more: facts.has_more,
         })
     }

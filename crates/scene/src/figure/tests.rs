@@ -44,6 +44,28 @@ fn text(name: &str, bytes: impl AsRef<[u8]>) -> String {
     text
 }
 
+/// Crystals are shown with all atoms on the faces of the cell; other tables with a cell say that it can be repeated.
+#[test]
+fn cells_are_shown_whole() {
+    let salt = "salt\n5.64\n1 0 0\n0 1 0\n0 0 1\nNa Cl\n1 1\nDirect\n0 0 0\n.5 .5 .5\n";
+    let text = self::text("POSCAR", salt);
+    assert!(
+        text.contains("radii: Covalent, //") && text.contains("edges: true, //"),
+        "{text}"
+    );
+    assert!(text.contains("// repeat: (2, 2, 2), //"), "{text}");
+    let folder = Folder::new("salt");
+    let path = folder.write("POSCAR", salt);
+    assert_eq!(Scene::load(&path).unwrap().world().spheres().len(), 9);
+    let text = self::text("box.xyz", "1\nLattice=\"2 0 0 0 2 0 0 0 2\"\nC 0 0 0\n");
+    assert!(
+        text.contains("// repeat: (2, 2, 2), //") && !text.contains("edges"),
+        "{text}"
+    );
+    let text = self::text("no-box.xyz", "1\n\nC 0 0 0\n");
+    assert!(!text.contains("repeat"), "{text}");
+}
+
 #[test]
 fn columns_are_found_or_left_out() {
     for (name, table, expected) in [

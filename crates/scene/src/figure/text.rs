@@ -103,6 +103,13 @@ fn cloud(contents: &Contents, name: &str) -> String {
         let fields = colors.fields.join(", ");
         line(&format!("{fields}, // {}", colors.comment));
     }
+    if contents.is_crystal {
+        line("radii: Covalent, // `VanDerWaals` fills the space between the atoms");
+        line("edges: true, // atoms on a face of the cell are shown on the opposite one, too");
+    }
+    if contents.has_cell {
+        line("// repeat: (2, 2, 2), // shows so many cells along each edge");
+    }
     if contents.has_z_up {
         line("up: Z, // z of the table points up");
     }

@@ -178,6 +178,12 @@ impl<'watch> Frames<'watch> {
         matches!(self.format, Format::Lammps | Format::Gro)
     }
 
+    /// True of a table that lists the atoms of a crystal's cell, after a frame was read.
+    pub(crate) fn is_crystal(&self) -> bool {
+        let header = self.previous.as_ref();
+        self.format == Format::Vasp || header.is_some_and(|header| header.crystal.is_some())
+    }
+
     /// The name of the format.
     pub(crate) fn format(&self) -> &'static str {
         self.format.name()

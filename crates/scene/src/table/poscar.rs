@@ -188,7 +188,7 @@ fn species(input: &mut Input<'_>, title: &[u8]) -> Result<Vec<Species>, TableErr
                 words.len()
             );
             let found = read(input, &expected, |numbers| {
-                counts(numbers).filter(|counts| counts.len() >= words.len())
+                counts(numbers).filter(|counts| counts.len() == words.len())
             })?;
             let labels = words.iter().map(|word| symbol(word).into()).collect();
             (labels, found)
