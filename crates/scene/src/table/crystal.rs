@@ -1,18 +1,18 @@
 //! Crystals in CIF: atoms at fractions of the edges of a cell, and the symmetry that makes all atoms of the cell of them.
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::ops::Range;
 
 use glam::DVec3;
 use marbles_core::Sphere;
 
+use super::atom_list::{AtomLine, Atoms, Listed};
 use super::cell::{Cell, ToldCell};
-use super::cif::{self, Group, Items, Lexer, Token, Value};
+use super::cif::{self, Group, Items, Lexer, Token};
 use super::columns::{Nature, Plan, Slot};
 use super::error::TableError;
 use super::fields::{self, Division};
 use super::form::Form;
-use super::header::Header;
 use super::input::Input;
 use super::number::{is_missing, parse};
 use super::periodic::whole_cells;
@@ -32,27 +32,17 @@ pub(crate) struct Crystal {
     told: Vec<LocatedFault>,
 }
 
-/// An atom of the list.
-#[derive(Debug)]
-struct AtomLine {
-    /// The number of the line with its first value.
-    number: u64,
-    /// The values, as in the file, but without uncertainties, and in one line.
-    line: Vec<u8>,
-}
-
 /// Atoms nearer to one another than so, along each edge as a share of it, are on one place.
 const SAME_PLACE: f64 = 1e-3;
 
-/// The header of a data block whose loop of atoms has columns of these names; the rest of the block is read.
-pub(super) fn header(
+/// The crystal of a data block whose loop of atoms has columns of these names; the rest of the block is read.
+pub(super) fn read(
     input: &mut Input<'_>,
     mut items: Items,
-    names: Vec<String>,
-    first: (u64, Vec<u8>),
-) -> Result<Header, TableError> {
+    names: &[String],
+) -> Result<Crystal, TableError> {
     items.end_loop();
-    let mut atoms = Atoms::new(&names);
+    let mut atoms = Atoms::new(names);
     let (mut lexer, mut is_in_atoms) = (Lexer::default(), true);
     let mut text_start = 0;
     while let Some(line) = input.peek()? {
@@ -86,143 +76,24 @@ pub(super) fn header(
     }
     let atoms = atoms.finish()?;
     input.check_count(atoms.len() as u64, "rows")?;
-    let crystal = Crystal::new(atoms, items, number)?;
-    let (number, line) = first;
-    let form = Form::new(Division::QuotedWords);
-    Ok(Header {
-        cell: Some(crystal.cell.clone()),
-        crystal: Some(Arc::new(crystal)),
-        ..Header::new(names, form, (number, &line))
-    })
+    Ok(Crystal::new(atoms, items, number)?)
 }
 
-/// The atoms of a list while it is read.
-struct Atoms {
-    columns: usize,
-    /// The columns of the fractions.
-    places: Vec<usize>,
-    atoms: Vec<AtomLine>,
-    /// Values of the last atom that were read.
-    filled: usize,
-    /// The last atom has no place.
-    is_nowhere: bool,
-    /// The line of the last value, and where it ends there.
-    last: (u64, usize),
-    /// Atoms that have no place, and the first of them.
-    nowhere: (u64, Option<LocatedFault>),
-}
-
-impl Atoms {
-    fn new(names: &[String]) -> Self {
-        let is_place = |name: &String| PLACES.iter().any(|place| name.eq_ignore_ascii_case(place));
-        let columns = names.iter().enumerate();
-        Self {
-            columns: names.len(),
-            places: columns
-                .filter(|(_, name)| is_place(name))
-                .map(|(at, _)| at)
-                .collect(),
-            atoms: Vec::new(),
-            filled: 0,
-            is_nowhere: false,
-            last: (0, 0),
-            nowhere: (0, None),
-        }
-    }
-
-    /// Takes in the next value, which stands in this line.
-    fn take(&mut self, number: u64, line: &[u8], value: &Value<'_>) {
-        let is_same_line = self.last.0 == number;
-        let between = match (self.filled, is_same_line) {
-            (_, _) if value.span.is_empty() => &b" "[..],
-            (0, false) => &line[..value.span.start],
-            (0, true) => b"",
-            (_, true) => &line[self.last.1..value.span.start],
-            (_, false) => b" ",
-        };
-        if self.filled == 0 {
-            let line = Vec::new();
-            self.atoms.push(AtomLine { number, line });
-        }
-        let is_nothing = value.is_plain && cif::is_nothing(value.text);
-        self.is_nowhere |= is_nothing && self.places.contains(&self.filled);
-        if let Some(AtomLine { line: written, .. }) = self.atoms.last_mut() {
-            written.extend(between);
-            match value.is_plain {
-                _ if is_nothing => written.push(b'?'),
-                true => {
-                    // As long as it was, so that columns in messages are right.
-                    let end = cif::uncertainty(value.text).unwrap_or(value.text.len());
-                    written.extend(&value.text[..end]);
-                    written.extend(value.text[end..].iter().map(|_| b' '));
-                }
-                false if value.span.is_empty() => {
-                    let plain = |byte: &u8| if *byte == b'"' { b'\'' } else { *byte };
-                    written.push(b'"');
-                    written.extend(value.text.iter().map(plain));
-                    written.push(b'"');
-                }
-                false => written.extend(&line[value.span.clone()]),
-            }
-        }
-        self.last = (number, value.span.end);
-        self.filled += 1;
-        if self.filled == self.columns {
-            self.end_row();
-        }
-    }
-
-    fn end_row(&mut self) {
-        self.filled = 0;
-        if std::mem::take(&mut self.is_nowhere)
-            && let Some(AtomLine { number, line }) = self.atoms.pop()
-        {
-            self.nowhere.0 += 1;
-            let place = || LocatedFault::in_line(number, &line, 0..line.len(), String::new());
-            self.nowhere.1.get_or_insert_with(place);
-        }
-    }
-
-    /// The atoms that have places.
-    fn finish(mut self) -> Result<Listed, LocatedFault> {
-        if self.filled > 0
-            && let Some(AtomLine { number, line }) = self.atoms.pop()
-        {
-            let (filled, columns) = (self.filled, self.columns);
-            let expected = format!("{columns} values for this atom, one for each column");
-            let message = format!("expected {expected}, found {filled}");
-            return Err(LocatedFault::in_line(number, &line, 0..line.len(), message));
-        }
-        let (count, place) = self.nowhere;
-        let told = place.map(|place| LocatedFault {
-            message: format!(
-                "atoms without coordinates are left out: {count}, of which this is the first"
-            ),
-            ..place
-        });
-        Ok(Listed {
-            atoms: self.atoms,
-            told,
-        })
-    }
-}
-
-/// The names of the columns of fractions.
-const PLACES: [&str; 3] = ["fract_x", "fract_y", "fract_z"];
-
-/// The atoms of a list that have places, and what is said of the others.
-struct Listed {
-    atoms: Vec<AtomLine>,
-    told: Option<LocatedFault>,
-}
-
-impl Listed {
-    fn len(&self) -> usize {
-        self.atoms.len()
-    }
+/// The columns of a list of atoms.
+#[derive(Clone, Copy)]
+pub(super) struct Columns<'a> {
+    pub(super) names: &'a [String],
+    pub(super) form: &'a Form,
+    /// The line that names them first, for messages, and the part of it that does.
+    pub(super) place: &'a (u64, Vec<u8>, Range<usize>),
 }
 
 impl Crystal {
+    /// The cell, or what is wrong in it.
+    pub(super) fn cell(&self) -> &ToldCell {
+        &self.cell
+    }
+
     /// The crystal of these atoms and items, in a data block that ends before this line.
     fn new(listed: Listed, items: Items, end: u64) -> Result<Self, LocatedFault> {
         let cell = items.cell().ok_or_else(|| {
@@ -263,13 +134,13 @@ impl Crystal {
     }
 
     /// Reads the atoms, and adds those that are equivalent to them.
-    pub(super) fn read(&self, header: &Header, request: &Request) -> Result<Rows, TableError> {
+    pub(super) fn read(&self, columns: Columns<'_>, request: &Request) -> Result<Rows, TableError> {
         let cell = match &self.cell {
             Ok(cell) => cell,
             Err(fault) => return Err(fault.clone().into()),
         };
-        let request = with_label(header, request);
-        let texts = self.texts(&header.form);
+        let request = with_label(columns.names, request);
+        let texts = self.texts(columns.form);
         let nature = Nature {
             is_byte: &|_| false,
             is_text: &|column| texts.get(column).copied().unwrap_or(false),
@@ -278,25 +149,25 @@ impl Crystal {
             edges: Some(cell.edges),
             scale: DVec3::ONE,
         };
-        let plan = Plan::new(header.names.clone(), &request, &nature);
+        let plan = Plan::new(columns.names.to_vec(), &request, &nature);
         let plan = plan.map_err(|message| {
-            let (number, line, span) = &header.place;
+            let (number, line, span) = columns.place;
             LocatedFault::in_line(*number, line, span.clone(), message)
         })?;
         let mut rows = Rows::new(&plan);
         rows.reserve(self.atoms.len() as u64)?;
-        let occupancy = header
+        let occupancy = columns
             .names
             .iter()
             .position(|name| name.eq_ignore_ascii_case("occupancy"));
         let mut partial = (0, None);
         let mut numbers = plan.constants;
         for AtomLine { number, line } in &self.atoms {
-            if !text::is_kept(line, *number, &plan, &header.form)? {
+            if !text::is_kept(line, *number, &plan, columns.form)? {
                 rows.read += 1;
                 continue;
             }
-            text::read_line(line, *number, &plan, &header.form, &mut numbers, &mut rows)?;
+            text::read_line(line, *number, &plan, columns.form, &mut numbers, &mut rows)?;
             if is_partial(line, occupancy) {
                 partial.0 += 1;
                 partial.1.get_or_insert((*number, line));
@@ -374,14 +245,9 @@ impl Crystal {
 }
 
 /// The request that takes elements from the labels of atoms, where no other column tells them.
-fn with_label(header: &Header, request: &Request) -> Request {
+fn with_label(names: &[String], request: &Request) -> Request {
     let mut request = request.clone();
-    let is_there = |wanted: &str| {
-        header
-            .names
-            .iter()
-            .any(|name| name.eq_ignore_ascii_case(wanted))
-    };
+    let is_there = |wanted: &str| names.iter().any(|name| name.eq_ignore_ascii_case(wanted));
     let mut known = Slot::Element.names().iter();
     if request.columns.element.is_none() && !known.any(|name| is_there(name)) && is_there(LABEL) {
         request.columns.element = Some(ColumnRef::Name(LABEL.to_owned()));

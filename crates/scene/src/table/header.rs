@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 
 use super::cell::ToldCell;
 use super::columns::{Nature, Plan, Slot};
-use super::crystal::Crystal;
+use super::crystal::{self, Crystal};
 use super::error::TableError;
 use super::fields;
 use super::form::{FixedAtom, Form, LineKind};
@@ -87,7 +87,12 @@ impl Header {
         request: &Request,
     ) -> Result<Rows, TableError> {
         if let Some(crystal) = &self.crystal {
-            return crystal.read(self, request);
+            let columns = crystal::Columns {
+                names: &self.names,
+                form: &self.form,
+                place: &self.place,
+            };
+            return crystal.read(columns, request);
         }
         let texts = match &self.texts {
             Some(texts) => texts.clone(),

@@ -4,6 +4,8 @@
 //! # Source
 //! Hall, Allen and Brown, "The crystallographic information file (CIF)", 1991; the dictionary PDBx/mmCIF.
 
+use std::sync::Arc;
+
 use super::cell::ToldCell;
 use super::cif::{Items, Lexer};
 use super::crystal;
@@ -72,22 +74,18 @@ pub(crate) fn header(
         }
         let first = (number, line.to_vec());
         let mut names = vec![name(line, category)];
-        loop {
-            let number = input.number + 1;
-            let Some(line) = input.peek()? else {
-                break;
-            };
-            if starts_with(line.trim_ascii(), category) {
-                names.push(name(line.trim_ascii(), category));
-            } else if kind(line.trim_ascii()) != LineKind::Other {
-                break;
-            }
-            let line = input.next()?.unwrap_or_default();
-            lexer.feed(line, |token| items.take(number, line, token));
-        }
+        add_names(input, (&mut lexer, &mut items), category, &mut names)?;
         let has = |wanted: &str| names.iter().any(|name| name.eq_ignore_ascii_case(wanted));
         match (has("Cartn_x") && is_molecule, has("fract_x")) {
-            (false, true) => return crystal::header(input, items, names, first).map(Some),
+            (false, true) => {
+                let crystal = crystal::read(input, items, &names)?;
+                let form = Form::new(Division::QuotedWords);
+                return Ok(Some(Header {
+                    cell: Some(crystal.cell().clone()),
+                    crystal: Some(Arc::new(crystal)),
+                    ..Header::new(names, form, (first.0, &first.1))
+                }));
+            }
             // Displacements and the like.
             (false, false) if !is_molecule => continue,
             _ => {}
@@ -111,6 +109,29 @@ pub(crate) fn header(
             cell: items.cell_of_molecule(),
             ..Header::new(names, form, (first.0, &first.1))
         }));
+    }
+}
+
+/// Adds the names of the next lines that are of this category.
+fn add_names(
+    input: &mut Input<'_>,
+    (lexer, items): (&mut Lexer, &mut Items),
+    category: &str,
+    names: &mut Vec<String>,
+) -> Result<(), TableError> {
+    loop {
+        let number = input.number + 1;
+        let Some(line) = input.peek()? else {
+            return Ok(());
+        };
+        let word = line.trim_ascii();
+        if starts_with(word, category) {
+            names.push(name(word, category));
+        } else if kind(word) != LineKind::Other {
+            return Ok(());
+        }
+        let line = input.next()?.unwrap_or_default();
+        lexer.feed(line, |token| items.take(number, line, token));
     }
 }
 

@@ -5,6 +5,7 @@
 //! each column, `text` and `binary` read rows, and a file for each format reads what stands before them.
 //! `frames` reads the frames of a file one after another.
 
+mod atom_list;
 mod binary;
 mod cell;
 mod cif;
@@ -67,10 +68,9 @@ pub(crate) use file_state::FileState;
 pub(crate) use format::{ENDINGS, Format};
 pub(crate) use frames::{FramePlace, Frames};
 pub(crate) use paint::{Categories, Paint};
-pub(crate) use periodic::Periodic;
 pub(crate) use remarks::Remarks;
 pub(crate) use request::{
-    Coloring, ColumnRef, Columns, Filter, Missing, RadiusLaw, Request, Value, ValueRange,
+    Coloring, ColumnRef, Columns, Filter, Missing, Periodic, RadiusLaw, Request, Value, ValueRange,
 };
 pub(crate) use rows::Rows;
 pub(crate) use time::parse as time;

@@ -7,20 +7,8 @@ use rayon::prelude::*;
 use super::cell::Cell;
 use super::error::TableError;
 use super::paint::Paint;
+use super::request::Periodic;
 use super::rows::Rows;
-
-/// The choices of a scene file about the cell of a table.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(crate) struct Periodic {
-    /// The number of cells along each edge.
-    pub(crate) repeat: [u32; 3],
-    /// Every center is moved into the cell.
-    pub(crate) wraps: bool,
-    /// Image flags move particles back out of the cell.
-    pub(crate) unwraps: bool,
-    /// What lies on a face is shown on the opposite one, too.
-    pub(crate) shows_edges: bool,
-}
 
 /// The distance from a face at which a sphere lies on it, as a share of the edge that leads to the face.
 const ON_FACE: f64 = 1e-3;
@@ -29,34 +17,7 @@ const ROUNDED: f64 = 1e-7;
 /// The most spheres of a table: they are numbered with 32 bits.
 const MOST_SPHERES: u64 = u32::MAX as u64 - 1;
 
-impl Default for Periodic {
-    fn default() -> Self {
-        Self {
-            repeat: [1; 3],
-            wraps: false,
-            unwraps: false,
-            shows_edges: false,
-        }
-    }
-}
-
 impl Periodic {
-    /// The first field of the scene file that needs a cell.
-    pub(crate) fn field(self) -> Option<&'static str> {
-        let fields = [
-            (self.is_repeated(), "repeat"),
-            (self.wraps, "wrap"),
-            (self.unwraps, "unwrap"),
-            (self.shows_edges, "edges"),
-        ];
-        let mut fields = fields.into_iter();
-        fields.find(|field| field.0).map(|field| field.1)
-    }
-
-    fn is_repeated(self) -> bool {
-        self.repeat != [1; 3]
-    }
-
     /// Moves the spheres of a table into its cell, and repeats them.
     ///
     /// # Errors

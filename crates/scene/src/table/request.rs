@@ -5,7 +5,6 @@ use serde::Deserialize;
 
 use super::columns::Test;
 use super::element::Radii;
-use super::periodic::Periodic;
 
 /// The settings by which a table is read.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +31,49 @@ pub(crate) struct Request {
     pub(crate) keep: Vec<Filter>,
     /// The cells that are shown.
     pub(crate) periodic: Periodic,
+}
+
+/// The choices of a scene file about the cell of a table.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct Periodic {
+    /// The number of cells along each edge.
+    pub(crate) repeat: [u32; 3],
+    /// Every center is moved into the cell.
+    pub(crate) wraps: bool,
+    /// Image flags move particles back out of the cell.
+    pub(crate) unwraps: bool,
+    /// What lies on a face is shown on the opposite one, too.
+    pub(crate) shows_edges: bool,
+}
+
+impl Default for Periodic {
+    fn default() -> Self {
+        Self {
+            repeat: [1; 3],
+            wraps: false,
+            unwraps: false,
+            shows_edges: false,
+        }
+    }
+}
+
+impl Periodic {
+    /// The first field of the scene file that needs a cell.
+    pub(crate) fn field(self) -> Option<&'static str> {
+        let fields = [
+            (self.is_repeated(), "repeat"),
+            (self.wraps, "wrap"),
+            (self.unwraps, "unwrap"),
+            (self.shows_edges, "edges"),
+        ];
+        let mut fields = fields.into_iter();
+        fields.find(|field| field.0).map(|field| field.1)
+    }
+
+    /// Says whether there are several cells.
+    pub(crate) fn is_repeated(self) -> bool {
+        self.repeat != [1; 3]
+    }
 }
 
 /// A condition on a column.

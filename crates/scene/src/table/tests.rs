@@ -15,6 +15,7 @@ use crate::values::from_srgb;
 
 mod atoms;
 mod cells;
+mod cells_refused;
 mod colors;
 mod compressed;
 mod crystals;

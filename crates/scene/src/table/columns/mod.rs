@@ -1,6 +1,7 @@
 //! The purpose of each column of a table.
 
 mod filter;
+mod images;
 mod kinds;
 mod names;
 mod plan;

@@ -336,34 +336,12 @@ impl Plan {
     }
 
     /// Uses a column for this: the one that the scene file means, or else the one of its name.
-    fn take(&mut self, slot: Slot, chosen: Option<&ColumnRef>) -> Result<(), String> {
+    pub(super) fn take(&mut self, slot: Slot, chosen: Option<&ColumnRef>) -> Result<(), String> {
         let column = match chosen {
             Some(chosen) => self.names.chosen(chosen)?,
             None => self.names.of(slot)?,
         };
         self.use_for(column, slot);
-        Ok(())
-    }
-
-    /// Uses the columns of image flags.
-    fn take_images(&mut self) -> Result<(), String> {
-        for axis in 0..3 {
-            let slot = Slot::Image(axis);
-            if self.names.find_slot(slot).is_none() {
-                let name = slot.names()[0];
-                let names = self.names.list();
-                let hint = match self.names.find("xu") {
-                    Some(_) => {
-                        " (`columns: (x: \"xu\", y: \"yu\", z: \"zu\")` uses positions that are unwrapped)"
-                    }
-                    None => "",
-                };
-                return Err(format!(
-                    "expected image flags in the columns `ix`, `iy` and `iz` for `unwrap`, found no `{name}` among {names}{hint}"
-                ));
-            }
-            self.take(slot, None)?;
-        }
         Ok(())
     }
 

@@ -8,6 +8,7 @@ mod oversights;
 mod pattern;
 mod remarked;
 mod settings;
+mod step;
 mod steps;
 mod summary;
 
@@ -15,9 +16,10 @@ use std::path::{Path, PathBuf};
 
 pub use coloring::ScaleKind;
 pub(crate) use coloring::{Learned, Scale};
-pub(crate) use open::{FIRST_OF_SEVERAL, OpenCloud, Step};
+pub(crate) use open::{FIRST_OF_SEVERAL, OpenCloud};
 pub(crate) use remarked::Oversight;
 pub(crate) use settings::Cloud;
+pub(crate) use step::Step;
 pub use summary::{ColumnContents, ColumnSummary};
 
 use crate::text::{Fault, LocatedFault};

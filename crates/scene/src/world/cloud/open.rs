@@ -12,10 +12,11 @@ use super::observed::Observed;
 use super::pattern;
 use super::remarked::LateRemarks;
 use super::settings::Cloud;
+use super::step::Step;
 use super::steps::{self, Steps};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
-use crate::table::{Cell, Frames, Remarks, Rows, TableError};
+use crate::table::{Frames, Remarks, Rows, TableError};
 use crate::text::{Fault, harmless, quoted};
 
 /// A cloud whose steps are known and can be read.
@@ -31,31 +32,6 @@ pub(crate) struct OpenCloud {
     /// The file of frames, ready for one of them.
     open: Mutex<Option<Frames<'static>>>,
     pub(super) observed: Observed,
-}
-
-/// The spheres of a step.
-#[derive(Clone, Debug)]
-pub(crate) struct Step {
-    pub(crate) spheres: Vec<Sphere>,
-    pub(crate) albedos: Option<Albedos>,
-    /// The rows of the table, those that were not kept among them.
-    pub(crate) rows: u64,
-    /// The column of the numbers or names that colors stand for.
-    pub(crate) value_name: Option<String>,
-    /// The meaning of the colors.
-    pub(crate) learned: Learned,
-    /// The table has frames that are not read.
-    pub(crate) has_more: bool,
-    /// The axes of the table are right-handed.
-    pub(crate) is_right_handed: bool,
-    /// Doubts and guesses.
-    pub(super) remarks: Remarks,
-    /// The values are times, in seconds.
-    pub(crate) has_times: bool,
-    /// The rows that were kept.
-    pub(crate) kept: u64,
-    /// The cell, where the table tells one that has a volume.
-    pub(crate) cell: Option<Cell>,
 }
 
 /// The warning about a table with z up whose axes the scene leaves open, and whose format is left-handed.

@@ -6,9 +6,10 @@ use std::sync::PoisonError;
 use marbles_core::Albedos;
 
 use super::coloring::{Learned, Scale};
-use super::open::{OpenCloud, Step};
+use super::open::OpenCloud;
 use super::remarked::Oversight;
 use super::settings::Cloud;
+use super::step::Step;
 use crate::table::{self, Remarks};
 use crate::text::{Fault, did_you_mean, list, quoted};
 
