@@ -151,6 +151,7 @@ fn lists_of_atoms_have_many_forms() {
         plain.replace("C1 0.25 0.5 0.25\nO2", "C1 0.25\n  0.5\n0.25 O2"),
         plain.replace("_atom_site_label", "_atom_site_type_symbol"),
         plain.replace("C1 0.25", "'C1' '0.25'"),
+        plain.replace("C1 0.25", ";C1\n; 0.25"),
         plain.clone() + "loop_\n_atom_site_aniso_label\n_atom_site_aniso_U_11\nC1 0.1\nO2 0.2\n",
         plain.replace("loop_\n", "loop_\n_atom_type_symbol\nC O\nloop_\n"),
     ] {
