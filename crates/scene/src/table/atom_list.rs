@@ -81,7 +81,8 @@ impl Atoms {
                 false => written.extend(&line[value.span.clone()]),
             }
         }
-        self.last = (number, value.span.end);
+        // Behind the semicolon that ends a text of several lines.
+        self.last = (number, value.span.end.max(1));
         self.filled += 1;
         if self.filled == self.columns {
             self.end_row();
