@@ -56,9 +56,15 @@ impl FromStr for Size {
         match sides.map(|(width, height)| (side(width), side(height))) {
             // The longest sides together make 2³² pixels, which is the most there may be.
             Some((Some(width), Some(height))) => Ok(Self { width, height }),
-            _ => Err(format!(
-                "expected WIDTHxHEIGHT, each from 1 to {LONGEST_SIDE}"
-            )),
+            _ => {
+                let width: Option<u32> = side(text);
+                let example = width.map_or_else(String::new, |width| {
+                    format!(", such as {width}x{}", (5 * width / 8).max(1))
+                });
+                Err(format!(
+                    "expected WIDTHxHEIGHT, each from 1 to {LONGEST_SIDE}{example}"
+                ))
+            }
         }
     }
 }
@@ -81,5 +87,7 @@ mod tests {
         ] {
             assert_eq!(size(wrong), None, "{wrong}");
         }
+        let refused = "3000".parse::<Size>().unwrap_err();
+        assert!(refused.ends_with(", such as 3000x1875"), "{refused}");
     }
 }

@@ -59,7 +59,8 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
         console.result(format!("{name:NAMES$}{text}").trim_end());
     }
 
-    let warnings = warnings(world, &views, *frames.start());
+    let lights_move = scene.has_moving_lights();
+    let warnings = warnings(world, &views, *frames.start(), lights_move);
     scene::warn(&warnings, &arguments.scene, &arguments.options, console)?;
     match errors.first() {
         None => Ok(status::SUCCESS),
@@ -77,9 +78,9 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
 }
 
 /// Warnings about the views of a world in some frames; `frame` is the first of these frames.
-fn warnings(world: World, views: &[View], frame: i32) -> Vec<String> {
+fn warnings(world: World, views: &[View], frame: i32, lights_move: bool) -> Vec<String> {
     let mut warnings = costs::warnings(&world, views);
-    warnings.extend(oversights::warnings(&world, views, frame));
+    warnings.extend(oversights::warnings(&world, views, frame, lights_move));
     let default = format!("the default `--tolerance {DEFAULT_TOLERANCE:e}`");
     warnings.extend(dim_light::warning([world], DEFAULT_TOLERANCE, &default));
     warnings
@@ -96,7 +97,7 @@ fn print_json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> R
     if !scene.clouds().is_empty() {
         more.push_str(&format!(",\n  \"clouds\": {}", tables::json(scene)?));
     }
-    let warnings = warnings(world, &[view], frame);
+    let warnings = warnings(world, &[view], frame, scene.has_moving_lights());
     let all: Vec<&String> = scene.warnings().iter().chain(&warnings).collect();
     more.push_str(&format!(",\n  \"warnings\": {}", json!(all)));
     // For programs: as it is.

@@ -1,27 +1,36 @@
 //! Mistakes that make a picture black, or a single color.
 
+mod eye;
+mod lights;
+
 use marbles_core::{Sphere, View, World};
 use rayon::prelude::*;
-
-use crate::base::numbers::short;
 
 /// The most views that are checked; of longer animations, evenly spread ones.
 const VIEWS: usize = 9;
 
 /// Warnings about views of some frames, the first of which is `frame`: the mistake, and the remedy. Works on the
 /// threads of the current rayon pool.
-pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String> {
+///
+/// If `lights_move`, the lights of the world are those of the first view alone.
+pub(super) fn warnings(
+    world: &World,
+    views: &[View],
+    frame: i32,
+    lights_move: bool,
+) -> Vec<String> {
     let spheres = world.spheres();
     let Some(view) = views.first() else {
         return Vec::new();
     };
-    let mut looked_at = views.iter().step_by(views.len().div_ceil(VIEWS));
+    let looked_at: Vec<&View> = views.iter().step_by(views.len().div_ceil(VIEWS)).collect();
     if spheres.is_empty() {
         return vec!["the scene has no spheres: the picture shows only the background".to_owned()];
     }
     let mut warnings = Vec::new();
-    let is_empty = |view: &View| !spheres.par_iter().any(|sphere| may_be_seen(sphere, view));
-    if looked_at.all(is_empty) {
+    let is_empty = |view: &&View| !spheres.par_iter().any(|sphere| may_be_seen(sphere, view));
+    let shows_none = looked_at.iter().all(is_empty);
+    if shows_none {
         warnings.push(
             "no sphere is in view: `marbles check` prints where they are, and `camera: Frame()` shows all of them"
                 .to_owned(),
@@ -34,19 +43,14 @@ pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String>
                 .to_owned(),
         );
     }
-    let eye = view.camera.position;
-    let is_around = |sphere: &Sphere| {
-        (sphere.center() - eye).length_squared() < sphere.radius() * sphere.radius()
-    };
-    if !view.lens.is_parallel()
-        && let Some(index) = spheres.par_iter().position_first(is_around)
-    {
-        let radius = short(spheres[index].radius());
-        warnings.push(format!(
-            "frame {frame}: the camera is inside sphere {}, whose radius is {radius}: the inner side of the \
-             sphere hides everything outside",
-            index + 1
-        ));
+    let inside = eye::warning(world, view, frame);
+    let sees_outsides = inside.is_none();
+    warnings.extend(inside);
+    if !lights_move || looked_at.len() == 1 {
+        warnings.extend(lights::too_weak(world));
+        if sees_outsides && !shows_none {
+            warnings.extend(lights::behind(world, &looked_at));
+        }
     }
     warnings
 }
@@ -87,7 +91,7 @@ mod tests {
     fn of(fields: &str) -> String {
         let text = format!("(image: (width: 40, height: 20), lens: Fov(90), {fields})");
         let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
-        let warnings = warnings(scene.world(), &[scene.view(1).unwrap()], 1);
+        let warnings = warnings(scene.world(), &[scene.view(1).unwrap()], 1, false);
         warnings
             .iter()
             .map(|line| &line[..24])

@@ -223,7 +223,7 @@ fn check_view(
     let frames = request.frames.iter().take(most);
     let views: Vec<View> = frames.filter_map(|frame| scene.view(frame).ok()).collect();
     let warnings = threads.install(|| {
-        let mut warnings = oversights::warnings(&world, &views, frame);
+        let mut warnings = oversights::warnings(&world, &views, frame, scene.has_moving_lights());
         if let Method::Tolerance(tolerance) = request.settings.method {
             let option = format!("`--tolerance {tolerance:e}`");
             let of_parts = request.parts.iter().map(|part| part.of(&world));

@@ -11,6 +11,9 @@ use crate::text::{harmless, list, quoted};
 /// A field of view of so many degrees looks like one in radians; fewer are those of a telescope.
 const LIKE_RADIANS: Range<f64> = 0.05..3.2;
 
+/// Smaller numbers are seldom the bytes of a color: 8 is nearly black.
+const LEAST_BYTE: f64 = 8.0;
+
 /// Plain sentences, what is odd first, and then what to do.
 pub(super) fn warnings(file: &File) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -60,15 +63,17 @@ fn albedo(name: &str, albedo: DVec3) -> Option<String> {
             "material {name}: numbers above 1 look like bytes: {code} is this color, and 1 is white"
         ));
     }
-    (albedo.max_element() > 1.0)
-        .then(|| format!("material {name}: with an albedo above 1, the surface reflects more light than it receives"))
+    let most = albedo.max_element();
+    (most > 1.0).then(|| {
+        format!("material {name}: with an albedo of {most}, the surface reflects {most} times the light that it receives")
+    })
 }
 
 /// The color whose bytes a color looks like.
 fn bytes(color: DVec3) -> Option<String> {
     let channels = color.to_array();
     let is_byte = |channel: &f64| (0.0..=255.0).contains(channel) && channel.fract() == 0.0;
-    let is_like_bytes = channels.iter().all(is_byte) && color.max_element() > 2.0;
+    let is_like_bytes = channels.iter().all(is_byte) && color.max_element() >= LEAST_BYTE;
     let [red, green, blue] = channels.map(|channel| channel as u8);
     is_like_bytes.then(|| format!("\"#{red:02x}{green:02x}{blue:02x}\""))
 }
@@ -155,7 +160,12 @@ mod tests {
             (
                 "Fov(50)",
                 "materials: {\"m\": (albedo: 1.5)}",
-                "material \"m\": with an albedo above 1, the surface reflects more light than it receives",
+                "material \"m\": with an albedo of 1.5, the surface reflects 1.5 times the light that it receives",
+            ),
+            (
+                "Fov(50)",
+                "materials: {\"m\": (albedo: 3)}",
+                "material \"m\": with an albedo of 3, the surface reflects 3 times the light that it receives",
             ),
             (
                 "Fov(50)",

@@ -4,12 +4,14 @@ use glam::DVec3;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer};
 
+use super::color_name;
 use super::quantity::{ColorChannel, number};
-use crate::text::{Names, Read, Slice, note_failure, read_simple, read_tuple};
+use crate::text::{Names, Read, Slice, note_failure, read_simple, read_tuple, refuse, show};
 
-const ANY_FORM: &str = r##"a color: a number, `(red, green, blue)` or "#rrggbb""##;
+const ANY_FORM: &str =
+    r##"a color: a number, `(red, green, blue)`, "#rrggbb" or a name such as "gold""##;
 
-/// A color: a number (gray), `(red, green, blue)`, both linear, or `"#rrggbb"`, in sRGB.
+/// A color: a number (gray), `(red, green, blue)`, both linear, or `"#rrggbb"` or a name of CSS, in sRGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Color(pub(crate) DVec3);
 
@@ -23,13 +25,17 @@ impl<'t> Read<'t> for Color {
         let is_number = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | 'N' | 'i');
         if slice.text.starts_with(['"', 'r']) && slice.text.contains('"') {
             let text: String = read_simple(slice, ANY_FORM)?;
-            return from_hexadecimal(&text)
-                .map(Self)
-                .or_else(|| slice.refuse(r##"a color "#rrggbb" of hexadecimal digits"##));
+            let color = from_hexadecimal(&text).or_else(|| color_name::find(&text).map(from_srgb));
+            return color.map(Self).or_else(|| refuse_text(slice, &text));
         }
         if slice.text.starts_with('(') {
             let [red, green, blue]: [ColorChannel; 3] = read_tuple(slice, ANY_FORM)?;
             return Some(Self(DVec3::new(red.0, green.0, blue.0)));
+        }
+        if color_name::find(slice.text).is_some() {
+            let name = slice.text;
+            let message = format!("expected {ANY_FORM}, found `{name}`, did you mean \"{name}\"?");
+            return refuse(slice.place(), message);
         }
         let expected = if slice.text.starts_with(is_number) {
             "a color of at least 0"
@@ -51,6 +57,28 @@ impl<'t> Read<'t> for Color {
             })
             .map(|_| None)
     }
+}
+
+/// Reports a text that is no color, with the color that it may stand for.
+fn refuse_text(slice: Slice<'_>, text: &str) -> Option<Color> {
+    let expected = match text.starts_with('#') {
+        true => r##"a color "#rrggbb" of hexadecimal digits"##,
+        false => r##"a color "#rrggbb" of hexadecimal digits, or a name of CSS such as "gold""##,
+    };
+    let found = show(slice.text);
+    let hint = match text.to_ascii_lowercase().as_str() {
+        "transparent" | "none" => {
+            "; for a picture without background, render with `--transparent`".to_owned()
+        }
+        _ if from_hexadecimal(&format!("#{text}")).is_some() => {
+            format!(", did you mean \"#{text}\"?")
+        }
+        _ => color_name::did_you_mean(text),
+    };
+    refuse(
+        slice.place(),
+        format!("expected {expected}, found {found}{hint}"),
+    )
 }
 
 /// The linear color of `#rrggbb`.

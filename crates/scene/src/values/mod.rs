@@ -1,6 +1,7 @@
 //! The simple values of a scene file: numbers, colors, points, names.
 
 mod color;
+mod color_name;
 mod point;
 mod quantity;
 mod rotation;

@@ -13,6 +13,7 @@ mod render;
 mod report;
 mod scene;
 mod spheres;
+mod tips;
 mod values;
 
 use std::ffi::OsString;
@@ -66,8 +67,12 @@ impl Arguments {
         columns: usize,
     ) -> Result<Self, clap::Error> {
         let mut command = fitted(Self::command(), columns).term_width(columns);
-        let matches = command.try_get_matches_from_mut(words);
-        let mut matches = matches.map_err(harmless)?;
+        let words: Vec<OsString> = words.into_iter().collect();
+        let matches = command.try_get_matches_from_mut(&words);
+        let mut matches = matches.map_err(|error| {
+            let name = words.get(1).and_then(|name| name.to_str());
+            harmless(tips::with_tip(error, &command, name.unwrap_or_default()))
+        })?;
         Self::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
     }
 }

@@ -193,3 +193,41 @@ fn words_do_nothing_to_a_terminal() {
         }
     }
 }
+
+#[test]
+fn options_that_do_not_exist_get_a_tip_of_what_to_write() {
+    let message = |words: &[&str]| {
+        let words = ["marbles"].iter().chain(words);
+        let words = words.map(|word| OsString::from(*word));
+        let refused = Arguments::of(words, 200).expect_err("it is no option");
+        refused.to_string()
+    };
+    for (words, tip) in [
+        (
+            &["render", "a.ron", "--background", "white"][..],
+            "write `--white`, `--transparent` or `--set background=0.5` of `marbles render`",
+        ),
+        (&["render", "a.ron", "--background=white"], "`--white`"),
+        (
+            &["render", "a.ron", "--width", "300"],
+            "write `--size 1200x900`",
+        ),
+        (
+            &["render", "a.ron", "--camera", "top"],
+            "write `--view top`",
+        ),
+        (
+            &["preview", "a.ron", "--transparent"],
+            "`--transparent` is an option of `marbles render`",
+        ),
+        (&["check", "a.ron", "--white"], "`--white` is an option of"),
+        // Slips keep the tips that clap has for them.
+        (&["render", "a.ron", "--tolerence", "1"], "'--tolerance'"),
+        (&["render", "a.ron", "--size", "3000"], "such as 3000x1875"),
+    ] {
+        let message = message(words);
+        assert!(message.contains(tip), "{words:?}: {message}");
+        assert!(!message.contains("as a value"), "{message}");
+        assert!(!message.contains("'--scale-bar'"), "{message}");
+    }
+}

@@ -1,0 +1,277 @@
+//! Lights that add nothing to see.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::DVec3;
+use marbles_core::{Color, Light, LightFalloff, Sphere, View, World};
+use rayon::prelude::*;
+
+use super::may_be_seen;
+use crate::base::numbers::short;
+
+/// A light that adds no more than this makes no difference that anybody sees: white is 1.
+const WEAK: f64 = 0.004;
+/// A crescent that covers no more than this part of a sphere's picture is not what a light is for.
+const THIN: f64 = 0.01;
+
+/// A warning about each light that adds very little to every sphere. A light of intensity 0 is meant to be off.
+pub(super) fn too_weak(world: &World) -> Vec<String> {
+    let lights = world.lights.iter().enumerate();
+    let warnings = lights.filter_map(|(index, light)| {
+        let spheres = 0..world.spheres().len();
+        let is_bright = |sphere: usize| added(world, light, sphere) > WEAK;
+        if spheres.clone().into_par_iter().any(is_bright) {
+            return None;
+        }
+        let all = spheres
+            .into_par_iter()
+            .map(|sphere| (added(world, light, sphere), sphere));
+        let (most, sphere) = all.max_by(|one, other| one.0.total_cmp(&other.0))?;
+        (most > 0.0).then(|| told(index + 1, light, most, &world.spheres()[sphere]))
+    });
+    warnings.collect()
+}
+
+fn told(number: usize, light: &Light, most: f64, brightest: &Sphere) -> String {
+    let start = format!("light {number} adds at most {} to any sphere", short(most));
+    let falling = light
+        .point()
+        .filter(|point| point.falloff() == LightFalloff::InverseSquare);
+    let Some(point) = falling else {
+        return format!("{start}: raise its `intensity`");
+    };
+    let apart = (brightest.center() - point.position()).length() - brightest.radius();
+    let factor = apart / point.reference();
+    format!(
+        "{start}: it is {} away, and its `intensity` is the light at the distance `reference: {}`; write \
+         `reference: {}`, or an intensity {} times as large",
+        short(apart),
+        short(point.reference()),
+        short(apart),
+        short(factor * factor)
+    )
+}
+
+/// An upper bound of what a light adds to a sphere.
+fn added(world: &World, light: &Light, sphere: usize) -> f64 {
+    let most = light.brightest_on(&world.spheres()[sphere]);
+    let highlight = world.material(sphere).highlight;
+    let strength = highlight.map_or(0.0, |highlight| highlight.strength);
+    (most * (world.albedo(sphere) + Color::splat(strength))).max_element()
+}
+
+/// A warning if all lights are behind the spheres that the camera sees, in each of the views. Shadows are not looked
+/// at.
+pub(super) fn behind(world: &World, views: &[&View]) -> Option<String> {
+    // Bumps turn a surface toward lights behind it.
+    if world.lights.is_empty() || world.has_bumps() {
+        return None;
+    }
+    let spheres = world.spheres();
+    let is_lit = |sphere: &Sphere, view: &View| {
+        may_be_seen(sphere, view) && share_lit(world, sphere, view) > THIN
+    };
+    let any_is_lit = |view: &&View| spheres.par_iter().any(|sphere| is_lit(sphere, view));
+    if views.iter().any(any_is_lit) {
+        return None;
+    }
+    let seen = views.iter().flat_map(|view| {
+        let seen = spheres.iter().filter(|sphere| may_be_seen(sphere, view));
+        seen.map(|sphere| share_lit(world, sphere, view))
+    });
+    let percent = 100.0 * seen.fold(0.0, f64::max);
+    let rest = match world.ambient.max_element() > 0.0 {
+        true => "only ambient light shows",
+        false => "the spheres are black",
+    };
+    let toward = world.lights.iter().find_map(Light::toward);
+    let remedy = toward.map_or_else(
+        || "move them to the camera's side".to_owned(),
+        |toward| {
+            let largest = toward.abs().max_element();
+            let [x, y, z] = (-toward / largest).to_array().map(|part| short(part + 0.0));
+            format!("`toward` points from the scene to the light, so try `toward: ({x}, {y}, {z})`")
+        },
+    );
+    Some(format!(
+        "the lights are behind the spheres, and reach at most {} % of what the camera sees of any: {rest}; {remedy}",
+        short((100.0 * percent).ceil() / 100.0)
+    ))
+}
+
+/// The part of a sphere's picture, across it, that lights reach at most: of a moon, its phase.
+///
+/// A light reaches a cap of the sphere, and the camera sees a cap, whose half angles are at most 90 degrees. If they
+/// overlap by an angle, what is lit and seen is not wider than a crescent of this angle at the limb.
+fn share_lit(world: &World, sphere: &Sphere, view: &View) -> f64 {
+    let (center, radius) = (sphere.center(), sphere.radius());
+    let (to_eye, seen) = match view.lens.is_parallel() {
+        true => (-view.camera.forward(), FRAC_PI_2),
+        false => cap(view.camera.position - center, radius),
+    };
+    let shining = world
+        .lights
+        .iter()
+        .filter(|light| light.intensity().max_element() > 0.0);
+    let overlaps = shining.map(|light| {
+        let (to_light, lit) = match light.point() {
+            Some(point) => cap(point.position() - center, radius),
+            None => (light.toward().unwrap_or_default(), FRAC_PI_2),
+        };
+        seen + lit - to_eye.angle_between(to_light)
+    });
+    let overlap = overlaps.fold(0.0, f64::max).min(2.0 * seen);
+    // How far from the middle of the picture a point is seen that is this angle from the middle of the cap.
+    let nearness = libm::cos(seen);
+    let seen_at = |angle: f64| libm::sin(angle) / (1.0 - nearness * libm::cos(angle));
+    let limb = seen_at(seen);
+    (limb - seen_at(seen - overlap)) / (2.0 * limb)
+}
+
+/// The part of a sphere that a point sees: its middle, as a vector from the center, and its half angle.
+fn cap(to_point: DVec3, radius: f64) -> (DVec3, f64) {
+    let nearness = (radius / to_point.length()).min(1.0);
+    (to_point, libm::acos(nearness))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use marbles_scene::Scene;
+
+    use super::*;
+
+    fn scene(fields: &str) -> Scene {
+        let text = format!("(image: (width: 40, height: 20), lens: Fov(90), {fields})");
+        Scene::parse(&text, Path::new("scene.ron")).unwrap()
+    }
+
+    fn weak(light: &str) -> String {
+        let scene = scene(&format!(
+            "camera: Free(), lights: [{light}], spheres: [(center: (0, 0, 5), radius: 1), (center: (0, 0, 9), radius: 2)]"
+        ));
+        too_weak(scene.world()).join("; ")
+    }
+
+    #[test]
+    fn weak_lights_are_told_with_what_helps() {
+        assert_eq!(
+            weak("Directional(toward: (0, 0, -1)), Point(position: (0, 0, -16), reference: 1)"),
+            "light 2 adds at most 0.0025 to any sphere: it is 20 away, and its `intensity` is the light at the distance \
+             `reference: 1`; write `reference: 20`, or an intensity 400 times as large"
+        );
+        assert_eq!(
+            weak("Directional(toward: (0, 0, -1), intensity: (0.001, 0.003, 0))"),
+            "light 1 adds at most 0.003 to any sphere: raise its `intensity`"
+        );
+        for enough in [
+            "Point(position: (0, 0, -16))",
+            "Point(position: (0, 0, -16), reference: 20)",
+            "Point(position: (0, 0, -16), reference: 1, intensity: 2)",
+            "Point(position: (0, 0, -900), falloff: None)",
+            "Directional(toward: (0, 0, -1), intensity: 0.005)",
+            "Directional(toward: (0, 0, -1), intensity: 0)",
+            // Inside of a sphere, it shines on no outer side but that of the other.
+            "Point(position: (0, 0, 5))",
+        ] {
+            assert_eq!(weak(enough), "", "{enough}");
+        }
+    }
+
+    fn dark(fields: &str) -> String {
+        let scene = scene(fields);
+        behind(scene.world(), &[&scene.view(1).unwrap()]).unwrap_or_default()
+    }
+
+    #[test]
+    fn lights_behind_all_that_is_seen_are_told() {
+        let spheres = "camera: Free(), spheres: [(center: (0, 0, 50), radius: 1), (center: (0, 0, -9), radius: 1)]";
+        let lit = |light: &str| dark(&format!("lights: [{light}], {spheres}"));
+        assert_eq!(
+            lit("Directional(toward: (0.0, 1, 6))"),
+            "the lights are behind the spheres, and reach at most 0.53 % of what the camera sees of any: the spheres \
+             are black; `toward` points from the scene to the light, so try `toward: (0, -0.166667, -1)`"
+        );
+        assert!(lit("Directional(toward: (0, 0, 1))").contains("at most 0 %"));
+        assert!(lit("Point(position: (0, 0, 60))").ends_with("move them to the camera's side"));
+        let ambient = dark(&format!(
+            "ambient: 0.1, lights: [Directional(toward: (0, 0, 1))], {spheres}"
+        ));
+        assert!(ambient.contains("only ambient light shows"));
+        for light in [
+            "Directional(toward: (0, 1, 4))",
+            "Directional(toward: (0, 0, 1)), Directional(toward: (1, 0, 0))",
+            "Point(position: (30, 0, 50))",
+        ] {
+            assert_eq!(lit(light), "", "{light}");
+        }
+        // One off the axis, that shows more of its side.
+        let beside = dark(
+            "lights: [Directional(toward: (0, 0, 1))], camera: Free(), spheres: [(center: (5, 0, 9), radius: 1)]",
+        );
+        assert_eq!(beside, "");
+    }
+
+    /// The phase that points of the surface show, counted one by one.
+    #[test]
+    fn no_more_is_lit_than_the_bound() {
+        for (sphere, light) in [
+            (
+                "center: (0, 0, 3), radius: 2",
+                "Directional(toward: (0.4, 0, 1))",
+            ),
+            (
+                "center: (1, 0, 3), radius: 2",
+                "Directional(toward: (-0.4, 1, 1))",
+            ),
+            (
+                "center: (0, 1, 9), radius: 2",
+                "Point(position: (1, 9, 12))",
+            ),
+            (
+                "center: (0, 1, 9), radius: 2",
+                "Point(position: (0, 4, 11))",
+            ),
+        ] {
+            let scene = scene(&format!(
+                "camera: Free(), lights: [{light}], spheres: [({sphere})]"
+            ));
+            let (world, view) = (scene.world(), scene.view(1).unwrap());
+            let ball = &world.spheres()[0];
+            let to_eye = (view.camera.position - ball.center()).normalize();
+            let (mut seen, mut lit) = (0.0, 0.0);
+            for index in 0..40_000 {
+                // A spiral of points of equal areas.
+                let z = 1.0 - (f64::from(index) + 0.5) / 20_000.0;
+                let turn = f64::from(index) * 2.399_963;
+                let across = (1.0 - z * z).sqrt();
+                let normal = DVec3::new(across * turn.cos(), across * turn.sin(), z);
+                let point = ball.center() + ball.radius() * normal;
+                let from_point = view.camera.position - point;
+                let facing = normal.dot(from_point);
+                if facing <= 0.0 {
+                    continue;
+                }
+                // The area in a picture around the sphere's center.
+                let area = facing / from_point.dot(to_eye).powi(3);
+                seen += area;
+                let light = &world.lights[0];
+                let to_light = light
+                    .toward()
+                    .unwrap_or_else(|| light.point().unwrap().position() - point);
+                lit += if normal.dot(to_light) > 0.0 {
+                    area
+                } else {
+                    0.0
+                };
+            }
+            let bound = share_lit(world, ball, &view);
+            assert!(
+                lit / seen <= bound + 1e-3,
+                "{sphere}, {light}: {} > {bound}",
+                lit / seen
+            );
+        }
+    }
+}
