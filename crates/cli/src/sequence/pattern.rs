@@ -30,6 +30,9 @@ impl Pattern {
     /// Parses the user's pattern, or returns an error.
     pub(crate) fn parse(path: &Path) -> Result<Self, String> {
         let wrong_ending = || {
+            if let Some(reason) = why_no_video(path) {
+                return reason;
+            }
             let path = path.shown();
             format!(
                 "expected a file name that ends in .png, .exr, .npy, .tif, .tiff, .apng, .gif or \
@@ -152,6 +155,23 @@ pub(crate) fn with_scene(path: &Path, scene: &OsStr) -> PathBuf {
         }
     };
     path.iter().map(replaced).collect()
+}
+
+/// What to do about the name of a video; `None` for other names.
+fn why_no_video(path: &Path) -> Option<String> {
+    const VIDEOS: [&str; 6] = ["mp4", "mov", "mkv", "avi", "webm", "m4v"];
+    let ending = path.extension()?.to_str()?;
+    let is_video = VIDEOS
+        .iter()
+        .any(|video| ending.eq_ignore_ascii_case(video));
+    is_video.then(|| {
+        let path = path.shown();
+        format!(
+            "`{path}` would be a video, which FFmpeg makes of frames: render with `-o 'frames/####.png'`, and then run \
+             `ffmpeg -framerate 24 -i frames/%04d.png -c:v libx264 -crf 16 -pix_fmt yuv420p {path}`; or render a loop \
+             for web pages with `-o NAME.webp`"
+        )
+    })
 }
 
 /// The place for the frame number at the start of `text`, if there is one: its length, and the width of the number.

@@ -7,8 +7,8 @@ use serde::Deserialize;
 
 use crate::text::{Placed, present};
 use crate::values::{
-    Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Point, Radius,
-    Rotation, Shutter, Turns, Zoom,
+    Axis, Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Point,
+    Radius, Rotation, Shutter, Swing, Turns, Zoom,
 };
 
 /// The camera; a `Free` one stands at the origin and looks along z by default.
@@ -103,6 +103,10 @@ pub(crate) enum Animation {
         turns: Placed<Turns>,
         #[serde(default)]
         what: Placed<Turned>,
+        #[serde(default, deserialize_with = "present")]
+        axis: Option<Placed<Axis>>,
+        #[serde(default, deserialize_with = "present")]
+        swing: Option<Placed<Swing>>,
     },
 }
 

@@ -22,7 +22,7 @@ use crate::text::{Placed, present};
 use crate::values::{
     Amplitude, Color, Coordinate, Exponent, FieldOfView, Flag, FocalLength, GrainSize, ImageSide,
     LightName, MaterialName, Point, Radius, Reference, RetinaDistance, RetinaWidth, Seed, Shift,
-    Shininess, Strength, Zoom,
+    Shininess, Strength, UnitName, Zoom,
 };
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.
@@ -34,6 +34,8 @@ pub(crate) struct File {
     pub(crate) camera: Placed<Camera>,
     #[serde(default)]
     pub(crate) zoom: Placed<Zoom>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) unit: Option<Placed<UnitName>>,
     #[serde(default = "black")]
     pub(crate) background: Placed<Color>,
     #[serde(default = "black")]

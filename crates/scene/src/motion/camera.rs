@@ -69,8 +69,8 @@ impl CameraMotion {
     /// be framed.
     pub(crate) fn frame(&mut self, framed: Framed<'_>, picture: &Picture) -> Option<f64> {
         let angles = self.channels.angles();
-        let turning = match self.turntable {
-            Some(_) => Turning::Around,
+        let turning = match &self.turntable {
+            Some(turntable) => turntable.turning(),
             None if angles.iter().all(|curve| curve.is_constant()) => Turning::Still,
             None => Turning::Freely,
         };
@@ -113,8 +113,16 @@ impl CameraMotion {
     pub(crate) fn pose(&self, frame: i32, later: f64) -> Result<Pose, FrameError> {
         let time = f64::from(frame) + later;
         let turntable = self.turntable.as_ref();
-        let turned = turntable.map_or(0.0, |turntable| turntable.azimuth_degrees_at(frame, later));
-        let camera = self.channels.at(time, turned);
+        let turned = turntable.map_or(0.0, |turntable| turntable.degrees_at(frame, later));
+        let about_an_axis = turntable.filter(|turntable| turntable.axis.is_some());
+        let camera = match about_an_axis {
+            Some(turntable) => self
+                .channels
+                .at(time, 0.0)
+                .map(|camera| turntable.turn(camera, self.target(), turned)),
+            // The vertical is that of the azimuth.
+            None => self.channels.at(time, turned),
+        };
         Ok(Pose {
             camera: camera.map_err(|fault| FrameError { frame, fault })?,
             zoom: self.zoom.at(time),

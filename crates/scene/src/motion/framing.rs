@@ -9,12 +9,14 @@
 //! of the left sides over their right ones, and some contour touches a side.
 //!
 //! On a turntable a sphere at height y passes on a circle of radius ρ around the axis: the largest
-//! n·p of it is n_y y + √(n_x² + n_z²) ρ, in the world's axes. For a camera that turns freely it
-//! is |n| |p|.
+//! n·p of it is n_y y + √(n_x² + n_z²) ρ, if the axis is the world's y. If it swings by less than a turn,
+//! it may not come to the angle at which it has this. For a camera that turns freely it is |n| |p|.
 //!
 //! What a parallel lens sees is as large from anywhere. There the lens is scaled: n is (1, 0, 0), and the
 //! largest n·p + r over fill·h is the scale. The camera stands twice as far back as puts all spheres
 //! before the plane through it.
+
+use std::f64::consts::PI;
 
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{Angle, Camera, Lens, Sphere};
@@ -29,14 +31,23 @@ pub(crate) fn axes_of_orbit(degrees: [f64; 3]) -> DMat3 {
 }
 
 /// The motion of a camera that frames.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Turning {
     /// Not at all.
     Still,
-    /// About the vertical through the middle.
-    Around,
+    /// About an axis through the middle, of which this is the unit vector, by an angle of at most so many radians to
+    /// both sides.
+    Around { axis: DVec3, swing: f64 },
     /// In any way.
     Freely,
+}
+
+impl Turning {
+    /// A whole turn about the vertical.
+    pub(crate) const UPRIGHT: Self = Self::Around {
+        axis: DVec3::Y,
+        swing: PI,
+    };
 }
 
 /// The picture that is to be filled.
@@ -169,8 +180,6 @@ struct Side {
     normal: DVec3,
     /// |n|.
     length: f64,
-    /// √(n_x² + n_z²).
-    across: f64,
     /// Half of the side that the picture has here, over the retina's distance.
     half: f64,
 }
@@ -180,21 +189,33 @@ impl Side {
         Self {
             normal,
             length: normal.length(),
-            across: (normal.x * normal.x + normal.z * normal.z).sqrt(),
             half,
         }
     }
 
     /// The least distance from which a sphere is on the inner side.
     fn distance(&self, from_target: DVec3, radius: f64, turning: Turning) -> f64 {
-        let DVec3 { x, y, z } = from_target;
         let reach = match turning {
             Turning::Still => self.normal.dot(from_target),
-            Turning::Around => self.normal.y * y + self.across * (x * x + z * z).sqrt(),
+            Turning::Around { axis, swing } => {
+                largest_turned(self.normal, from_target, axis, swing)
+            }
             Turning::Freely => self.length * from_target.length(),
         };
         (reach + radius * self.length) / self.half
     }
+}
+
+/// The largest product n·p of a normal and a point that turns about an axis by at most the angle `swing` to both sides.
+fn largest_turned(normal: DVec3, point: DVec3, axis: DVec3, swing: f64) -> f64 {
+    let (slope, height) = (normal.dot(axis), point.dot(axis));
+    let (out, across) = (normal - slope * axis, point - height * axis);
+    let most = out.length() * across.length();
+    if swing >= PI {
+        return slope * height + most;
+    }
+    let angle = libm::atan2(out.cross(across).length(), out.dot(across));
+    slope * height + most * libm::cos((angle - swing).max(0.0))
 }
 
 #[cfg(test)]

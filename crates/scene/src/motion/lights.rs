@@ -1,7 +1,7 @@
 //! The lights of a scene over time: at rest, through keys, on a turntable, and attached to the camera.
 
-use glam::DVec3;
-use marbles_core::{Angle, Camera, DirectionalLight, Light as CoreLight, LightFalloff, PointLight};
+use glam::{DMat3, DVec3};
+use marbles_core::{Camera, DirectionalLight, Light as CoreLight, LightFalloff, PointLight};
 
 use super::channels::{Keys, PointCurve};
 use super::checks;
@@ -126,7 +126,7 @@ impl Lights {
         self.lights.iter().filter_map(light).collect()
     }
 
-    /// The lights in frame `frame`, in which the camera is here. Those of a turntable turn about the vertical axis
+    /// The lights in frame `frame`, in which the camera is here. Those of a turntable turn about its axis
     /// through `target`.
     pub(crate) fn at(
         &self,
@@ -134,14 +134,11 @@ impl Lights {
         camera: &Camera,
         target: DVec3,
     ) -> Result<Vec<CoreLight>, FrameError> {
-        let forward = self.turntable.as_ref().map(|turntable| {
-            let angle = Angle::from_degrees(turntable.azimuth_degrees(frame));
-            let still = Angle::from_degrees(0.0);
-            Camera::free(DVec3::ZERO, angle, still, still).forward()
-        });
+        let turntable = self.turntable.as_ref();
+        let rotation = turntable.map(|turntable| turntable.rotation(frame));
         let at = |(index, light): (usize, &Light)| {
             let fault = light.kind.fault(index);
-            let placed = light.at(f64::from(frame), camera, forward, target);
+            let placed = light.at(f64::from(frame), camera, rotation, target);
             placed.ok_or(FrameError { frame, fault })
         };
         self.lights.iter().enumerate().map(at).collect()
@@ -149,16 +146,16 @@ impl Lights {
 }
 
 impl Light {
-    /// The light at a time; `None` where it has no place. What z is turned to by a turntable is `forward`.
+    /// The light at a time, turned by a `rotation`; `None` where it has no place.
     fn at(
         &self,
         time: f64,
         camera: &Camera,
-        forward: Option<DVec3>,
+        rotation: Option<DMat3>,
         target: DVec3,
     ) -> Option<CoreLight> {
         let place = self.place.at(time);
-        let turned = |vector: DVec3| forward.map_or(vector, |to| about_the_vertical(vector, to));
+        let turned = |vector: DVec3| rotation.map_or(vector, |rotation| rotation * vector);
         let intensity = self.intensity.at(time);
         match self.kind {
             Kind::Directional => {
@@ -174,7 +171,7 @@ impl Light {
             Kind::Point { falloff, reference } => {
                 // Where it is not chosen, nothing depends on it.
                 let reference = reference.unwrap_or(1.0);
-                let position = match forward {
+                let position = match rotation {
                     _ if self.is_attached => camera.position + camera.world_from_camera * place,
                     Some(_) => target + turned(place - target),
                     None => place,
@@ -200,12 +197,6 @@ impl Kind {
             Self::Point { .. } => FrameFault::LightTooFar(index),
         }
     }
-}
-
-/// A vector turned about the vertical axis as far as z is turned to `forward`.
-fn about_the_vertical(vector: DVec3, forward: DVec3) -> DVec3 {
-    let right = DVec3::new(forward.z, 0.0, -forward.x);
-    right * vector.x + DVec3::Y * vector.y + forward * vector.z
 }
 
 /// A light of the file and its keys.

@@ -1,6 +1,13 @@
 //! The turntable: an orbit around its target in a loop, or lights that turn so.
 
+use std::f64::consts::PI;
+
+use glam::{DMat3, DVec3};
+use marbles_core::{Angle, Camera};
+
+use super::framing::Turning;
 use crate::file::Animation;
+use crate::text::optional;
 
 /// A turn in degrees.
 const TURN: f64 = 360.0;
@@ -10,27 +17,93 @@ const TURN: f64 = 360.0;
 pub(super) struct Turntable {
     /// Frames of a loop, at least 1.
     pub(super) frames: i32,
-    /// Turns in a loop.
+    /// Turns in a loop, or swings there and back.
     pub(super) turns: f64,
+    /// The unit vector along the axis; `None` for the vertical.
+    pub(super) axis: Option<DVec3>,
+    /// The angle in degrees to which it swings, to both sides; `None` where it goes around.
+    pub(super) swing: Option<f64>,
 }
 
 impl Turntable {
     /// The turntable of an animation; `None` where it is none, or a fault was reported.
     pub(super) fn new(animation: &Animation) -> Option<Self> {
-        let Animation::Turntable { frames, turns, .. } = animation else {
+        let Animation::Turntable {
+            frames,
+            turns,
+            axis,
+            swing,
+            ..
+        } = animation
+        else {
             return None;
         };
+        let axis = optional(axis, |axis| Some(axis.0))?;
         Some(Self {
             frames: frames.get()?.0,
             turns: turns.get()?.0,
+            axis: axis.filter(|axis| *axis != DVec3::Y),
+            swing: optional(swing, |swing| Some(swing.0))?,
         })
     }
 
-    /// The angle that is added to the azimuth in frame `frame`.
+    /// The angle about the axis so many frames after frame `frame`, fewer than 1, in degrees.
+    ///
+    /// For whole turns it is the same in frame `frame + frames`, to the bit.
+    pub(super) fn degrees_at(&self, frame: i32, later: f64) -> f64 {
+        let phase = self.phase_degrees_at(frame, later);
+        match self.swing {
+            Some(swing) => swing * Angle::from_degrees(phase).sin,
+            None => phase,
+        }
+    }
+
+    /// The rotation in frame `frame`.
+    pub(super) fn rotation(&self, frame: i32) -> DMat3 {
+        self.rotation_by(self.degrees_at(frame, 0.0))
+    }
+
+    /// The rotation by an angle in degrees about the axis: from z toward x about y, from x toward y about z.
+    fn rotation_by(&self, degrees: f64) -> DMat3 {
+        let angle = Angle::from_degrees(degrees);
+        let Some(axis) = self.axis else {
+            let still = Angle::from_degrees(0.0);
+            let forward = Camera::free(DVec3::ZERO, angle, still, still).forward();
+            let right = DVec3::new(forward.z, 0.0, -forward.x);
+            return DMat3::from_cols(right, DVec3::Y, forward);
+        };
+        // Rodrigues' formula, for each vector of the world's axes.
+        let turned = |vector: DVec3| {
+            let along = axis * axis.dot(vector);
+            along + (vector - along) * angle.cos + axis.cross(vector) * angle.sin
+        };
+        DMat3::from_cols(turned(DVec3::X), turned(DVec3::Y), turned(DVec3::Z))
+    }
+
+    /// A camera that is turned with it, so many degrees about the axis through `target`.
+    pub(super) fn turn(&self, camera: Camera, target: DVec3, degrees: f64) -> Camera {
+        let rotation = self.rotation_by(degrees);
+        let about_target = |point: DVec3| target + rotation * (point - target);
+        Camera {
+            position: about_target(camera.position),
+            on_axis: about_target(camera.on_axis),
+            world_from_camera: rotation * camera.world_from_camera,
+        }
+    }
+
+    /// The motion of a camera that it turns.
+    pub(super) fn turning(&self) -> Turning {
+        Turning::Around {
+            axis: self.axis.unwrap_or(DVec3::Y),
+            swing: self.swing.map_or(PI, f64::to_radians),
+        }
+    }
+
+    /// The angle of its turns in frame `frame`.
     ///
     /// For whole turns frame `frame + frames` is the same as `frame` to the bit: the fraction of
     /// the turn is a quotient of whole numbers, and whole turns are dropped before the division.
-    pub(super) fn azimuth_degrees(&self, frame: i32) -> f64 {
+    fn phase_degrees(&self, frame: i32) -> f64 {
         let frames = f64::from(self.frames);
         let part_of_turn = if self.loops() {
             // Less than 2^31 each, so that the product is a whole number of 64 bits.
@@ -43,12 +116,12 @@ impl Turntable {
         TURN * part_of_turn / frames
     }
 
-    /// The angle that is added to the azimuth so many frames after frame `frame`, fewer than 1.
+    /// The angle of its turns so many frames after frame `frame`, fewer than 1.
     ///
     /// For whole turns it is the same in frame `frame + frames`, to the bit.
-    pub(super) fn azimuth_degrees_at(&self, frame: i32, later: f64) -> f64 {
+    fn phase_degrees_at(&self, frame: i32, later: f64) -> f64 {
         let turns = libm::fmod(self.turns * later / f64::from(self.frames), 1.0);
-        self.azimuth_degrees(frame) + TURN * turns
+        self.phase_degrees(frame) + TURN * turns
     }
 
     /// The number of the frame by which noise is drawn: from 1 to `frames` where the last frame

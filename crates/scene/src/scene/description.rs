@@ -188,4 +188,6 @@ pub struct Description {
     pub animation: Option<&'static str>,
     /// The lens as the file writes it, for example `Fov(50)`.
     pub lens: String,
+    /// The unit of lengths, for example `nm`, if the file names one.
+    pub unit: Option<String>,
 }

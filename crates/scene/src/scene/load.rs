@@ -235,6 +235,7 @@ impl Draft {
                 camera: camera.kind(),
                 animation: optional(&file.animation, |animation| Some(animation.kind()))?,
                 lens: world::lens_as_written(&file.lens)?,
+                unit: optional(&file.unit, |unit| Some(unit.0.clone()))?,
             },
             clouds: Vec::new(),
             warnings: oversights::warnings(file),

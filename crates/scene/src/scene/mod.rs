@@ -255,7 +255,7 @@ impl Scene {
             return None;
         }
         let axes = axes_of_orbit([0.0, elevation, 0.0]);
-        let framing = Framing::new(spheres, &self.picture(FILL), Turning::Around, axes)?;
+        let framing = Framing::new(spheres, &self.picture(FILL), Turning::UPRIGHT, axes)?;
         Some((framing.target, framing.distance))
     }
 

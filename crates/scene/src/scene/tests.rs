@@ -80,6 +80,7 @@ fn what_is_left_out_has_its_default() {
             camera: "Free",
             animation: None,
             lens: String::from("Fov(90)"),
+            unit: None,
         }
     );
 }

@@ -9,6 +9,10 @@ use crate::text::{Read, Slice, read_tuple};
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point(pub(crate) DVec3);
 
+/// The direction of an axis, of length 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Axis(pub(crate) DVec3);
+
 /// A displacement on the retina.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Shift(pub(crate) DVec2);
@@ -41,6 +45,17 @@ impl<'t> Read<'t> for Point {
     fn read(slice: Slice<'t>) -> Option<Self> {
         let [x, y, z]: [Coordinate; 3] = read_tuple(slice, "three numbers `(x, y, z)`")?;
         Some(Self(DVec3::new(x.0, y.0, z.0)))
+    }
+}
+
+impl<'t> Read<'t> for Axis {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let Point(direction) = Point::read(slice)?;
+        // The largest component becomes 1 first, so that no square over- or underflows.
+        let largest = direction.abs().max_element();
+        let unit = (direction / largest).try_normalize();
+        unit.map(Self)
+            .or_else(|| slice.refuse("the direction of an axis, such as `(0, 1, 0)`"))
     }
 }
 

@@ -87,6 +87,8 @@ quantities! {
     Shutter(f64): "a shutter greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0;
     /// Turns of a turntable.
     Turns(f64): "a number of turns", |_| true, default 1.0;
+    /// The angle to which something swings, to both sides.
+    Swing(f64): "an angle in degrees greater than 0 and at most 180", |x| x > 0.0 && x <= 180.0;
     /// A side of the image, in pixels.
     ImageSide(u32): "a whole number from 1 to 65536", |n| (1..=65536).contains(&n);
     /// The number of a frame.

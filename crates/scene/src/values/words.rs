@@ -25,6 +25,8 @@ words! {
     MaterialName(String): "the name of a material in quotation marks";
     /// The name of a light.
     LightName(String): "the name of a light in quotation marks";
+    /// The unit of lengths.
+    UnitName(String): "the name of a unit in quotation marks";
     /// The name of a file, relative to the scene file.
     FileName(String): "the name of a file in quotation marks";
 }

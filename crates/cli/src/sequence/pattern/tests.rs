@@ -126,3 +126,20 @@ fn names_of_scenes_are_bytes() {
         b"\xff{scene}/a.png"
     ))));
 }
+
+#[test]
+fn videos_are_refused_with_what_makes_them() {
+    for name in ["turn.mp4", "out/turn.MOV"] {
+        let reason = Pattern::parse(Path::new(name)).unwrap_err();
+        assert!(reason.contains("-o 'frames/####.png'"), "{reason}");
+        let line = format!(
+            "ffmpeg -framerate 24 -i frames/%04d.png -c:v libx264 -crf 16 -pix_fmt yuv420p {name}`"
+        );
+        assert!(reason.contains(&line), "{reason}");
+    }
+    let other = Pattern::parse(Path::new("turn.mp3")).unwrap_err();
+    assert!(
+        other.starts_with("expected a file name that ends in"),
+        "{other}"
+    );
+}

@@ -109,22 +109,29 @@ fn a_still_has_all_contours_inside_and_touches_a_side() {
 
 #[test]
 fn a_turntable_has_all_contours_inside_in_every_frame() {
+    for turning in [
+        "",
+        ", swing: 35",
+        ", axis: (0, 0, 1)",
+        ", axis: (1, -2, 0.5), swing: 20",
+    ] {
+        turntables_have_all_contours_inside(turning);
+    }
+}
+
+fn turntables_have_all_contours_inside(turning: &str) {
     let mut random = Random(2);
     for lens in LENSES {
         let elevation = random.between(-80.0, 80.0);
         let camera = format!("Frame(elevation: {elevation}, fill: 1)");
-        let scene = scene(
-            &mut random,
-            lens,
-            &camera,
-            ", animation: Turntable(frames: 90)",
-        );
+        let animation = format!(", animation: Turntable(frames: 90{turning})");
+        let scene = scene(&mut random, lens, &camera, &animation);
         let reaches: Vec<f64> = (1..=90)
             .map(|frame| reach(&scene, &scene.view(frame).unwrap()))
             .collect();
         let largest = reaches.iter().copied().fold(0.0, f64::max);
-        assert!(largest <= 1.0 + 1e-9, "{lens} {camera}: {largest}");
-        assert!(largest >= 0.98, "{lens} {camera}: {largest}");
+        assert!(largest <= 1.0 + 1e-9, "{lens} {camera}{turning}: {largest}");
+        assert!(largest >= 0.98, "{lens} {camera}{turning}: {largest}");
         let [first, last] = [1, 91].map(|frame| scene.view(frame).unwrap().camera);
         assert_eq!(first, last);
     }
