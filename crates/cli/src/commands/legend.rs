@@ -23,7 +23,14 @@ const LINE: f64 = 20.0;
 /// The space between the parts of different tables.
 const GAP: f64 = 14.0;
 /// The largest number of listed categories.
-const MOST_CATEGORIES: usize = 40;
+const MOST_CATEGORIES: usize = 24;
+/// The number of colors between which a gradient is linear: the steps of a colormap are far finer than those of a
+/// screen.
+const STOPS: usize = 33;
+/// The width of the picture for which a drawing has the sizes above. For wider pictures it is larger.
+const PICTURE_WIDTH: f64 = 640.0;
+/// Smaller texts are not readable.
+const LEAST_SCALE: f64 = 0.5;
 /// The approximate width of a digit in labels.
 const DIGIT: f64 = 7.0;
 
@@ -34,11 +41,16 @@ const PLAIN: Style = Style {
     color: "#000000",
 };
 
-/// Draws the legend of a scene.
+/// The factor on the sizes of a drawing next to a picture of this width in pixels.
+pub(super) fn scale_for(width: u32) -> f64 {
+    (f64::from(width) / PICTURE_WIDTH).max(LEAST_SCALE)
+}
+
+/// Draws the legend of a scene, for a picture of this width.
 ///
 /// # Errors
 /// Refuses scenes whose colors have no meaning.
-pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
+pub(super) fn draw(scene: &Scene, width: u32, path: &Path) -> Result<Svg, Failure> {
     let colors = |cloud: &CloudDescription| Some((cloud.file.shown(), cloud.colors.clone()?));
     let all: Vec<(String, ColorDescription)> = scene.clouds().iter().filter_map(colors).collect();
     if all.is_empty() {
@@ -49,9 +61,10 @@ pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
         .iter()
         .map(|(_, colors)| height(&colors.meaning) + GAP)
         .sum();
-    let mut svg = Svg::new(WIDTH, whole - GAP + 2.0 * MARGIN, "Legend");
+    let whole = whole - GAP + 2.0 * MARGIN;
+    let mut svg = Svg::scaled(WIDTH, whole, scale_for(width), "Legend");
     let mut top = MARGIN;
-    for (file, colors) in &all {
+    for (index, (file, colors)) in all.iter().enumerate() {
         let bold = Style {
             is_bold: true,
             ..PLAIN
@@ -69,7 +82,8 @@ pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
                     true => time(number, high - low),
                     false => short(number),
                 };
-                draw_scale(&mut svg, top + LINE, (*low, *high), *kind, colors, &label);
+                draw_gradient(&mut svg, top + LINE, colors, index + 1);
+                draw_marks(&mut svg, top + LINE, (*low, *high), *kind, &label);
             }
             ColorMeaning::Categories(categories) => {
                 draw_categories(&mut svg, top + LINE, categories);
@@ -77,7 +91,7 @@ pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
         }
         top += height(&colors.meaning) + GAP;
     }
-    Ok(svg.finish())
+    Ok(svg)
 }
 
 /// The name of the column with its unit, or else of the table.
@@ -98,20 +112,22 @@ fn height(meaning: &ColorMeaning) -> f64 {
     }
 }
 
-fn draw_scale(
+fn draw_gradient(svg: &mut Svg, top: f64, colors: &[Color], number: usize) {
+    let last = colors.len().saturating_sub(1);
+    let stops = STOPS.min(colors.len());
+    let color = |stop: usize| hexadecimal(colors[stop * last / stops.saturating_sub(1).max(1)]);
+    let colors: Vec<String> = (0..stops).map(color).collect();
+    svg.gradient((MARGIN, top), SCALE, &colors, &format!("colors-{number}"));
+}
+
+fn draw_marks(
     svg: &mut Svg,
     top: f64,
     (low, high): (f64, f64),
     kind: ScaleKind,
-    colors: &[Color],
     label: &dyn Fn(f64) -> String,
 ) {
     let (width, height) = SCALE;
-    let step = width / colors.len().max(1) as f64;
-    for (index, color) in colors.iter().enumerate() {
-        let left = MARGIN + step * index as f64;
-        svg.rectangle((left, top), (step, height), &hexadecimal(*color));
-    }
     let mut taken = f64::NEG_INFINITY;
     for number in marks(low, high, kind) {
         let at = MARGIN + width * place(number, low, high, kind);
@@ -138,7 +154,7 @@ fn draw_scale(
 fn draw_categories(svg: &mut Svg, top: f64, categories: &[(String, Color)]) {
     for (index, (name, color)) in categories.iter().take(MOST_CATEGORIES).enumerate() {
         let line = top + LINE * index as f64;
-        svg.rectangle((MARGIN, line), (14.0, 14.0), &hexadecimal(*color));
+        svg.swatch((MARGIN, line), 14.0, &hexadecimal(*color));
         svg.text((MARGIN + 22.0, line + 12.0), PLAIN, name);
     }
     if let Some(more) = categories
@@ -150,7 +166,10 @@ fn draw_categories(svg: &mut Svg, top: f64, categories: &[(String, Color)]) {
         svg.text(
             (MARGIN + 22.0, line + 12.0),
             PLAIN,
-            &format!("and {more} more"),
+            &match more {
+                1 => "… and 1 other".to_owned(),
+                _ => format!("… and {more} others"),
+            },
         );
     }
 }
@@ -232,6 +251,47 @@ fn hexadecimal(color: DVec3) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn more_categories_than_can_be_read_are_counted() {
+        let drawn = |count: usize| {
+            let category = |index: usize| (format!("<{index}>"), Color::splat(0.5));
+            let categories: Vec<(String, Color)> = (0..count).map(category).collect();
+            let mut svg = Svg::new(1.0, 1.0, "");
+            draw_categories(&mut svg, 0.0, &categories);
+            svg.finish()
+        };
+        let all = drawn(24);
+        assert_eq!(all.matches("<text").count(), 24);
+        assert!(all.contains(">&lt;23&gt;<") && !all.contains("other"));
+        assert!(drawn(25).contains(">… and 1 other<"));
+        let most = drawn(300);
+        assert_eq!(most.matches("<text").count(), 25);
+        assert!(most.contains(">… and 276 others<"));
+        // A swatch for each name, whose edge shows white on white.
+        assert_eq!(most.matches("stroke=").count(), 24);
+    }
+
+    #[test]
+    fn a_colormap_is_one_gradient() {
+        let colors: Vec<Color> = (0..256)
+            .map(|step| Color::splat(f64::from(step) / 255.0))
+            .collect();
+        let mut svg = Svg::new(1.0, 1.0, "");
+        draw_gradient(&mut svg, 0.0, &colors, 3);
+        let drawn = svg.finish();
+        assert_eq!(drawn.matches("<linearGradient id=\"colors-3\">").count(), 1);
+        assert_eq!(drawn.matches("fill=\"url(#colors-3)\"").count(), 1);
+        assert!(drawn.contains("<stop offset=\"0%\" stop-color=\"#000000\"/>"));
+        assert!(drawn.contains("<stop offset=\"100%\" stop-color=\"#ffffff\"/>"));
+        // 127 of 255 by the definition of sRGB: 187.4 of 255.
+        assert!(drawn.contains("<stop offset=\"50%\" stop-color=\"#bbbbbb\"/>"));
+    }
+
+    #[test]
+    fn drawings_grow_with_their_picture() {
+        assert_eq!([640, 1280, 100].map(scale_for), [1.0, 2.0, 0.5]);
+    }
 
     #[test]
     fn marks_are_round_numbers_between_the_ends() {

@@ -72,7 +72,7 @@ fn run_scene(
     check_view(&request, arguments, threads, console)?;
     let of_scene = |path: &PathBuf| with_scene(path, scene_name(scene));
     let (legend, scale_bar) = (&arguments.legend, &arguments.scale_bar);
-    figures::write(
+    let inside = figures::write(
         &request,
         legend.as_ref().map(of_scene),
         scale_bar.as_ref().map(of_scene),
@@ -100,6 +100,11 @@ fn run_scene(
     let late = request.scene.take_late_warnings();
     late.iter().for_each(|warning| console.warn(warning));
     let is_written = [status::SUCCESS, status::OVER_TOLERANCE].contains(&code);
+    if let Some(inside) = inside
+        && is_written
+    {
+        inside.write(&request)?;
+    }
     if is_written && arguments.options.strict && !late.is_empty() {
         console.reason("with --strict warnings are errors");
         return Ok(status::FAILURE);

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::args::RenderArguments;
+use super::figures::is_inside;
 use crate::base::failure::Failure;
 use crate::base::scene_name::scene_name;
 use crate::base::shown::Shown;
@@ -21,7 +22,8 @@ impl Others {
         }
         let outputs = [&arguments.output, &arguments.legend, &arguments.scale_bar];
         let mut outputs = outputs.into_iter().flatten();
-        if let Some(output) = outputs.find(|output| !has_place_for_scene(output)) {
+        let lacks_scene = |output: &&PathBuf| !has_place_for_scene(output) && !is_inside(output);
+        if let Some(output) = outputs.find(lacks_scene) {
             let why = format!("several scenes need {SCENE} in the file name");
             return Err(Failure::unusable(output, &why));
         }

@@ -9,7 +9,11 @@ const FONTS: &str = "system-ui, 'Segoe UI', 'Helvetica Neue', Arial, 'Liberation
 pub(crate) type Place = (f64, f64);
 
 /// A drawing on white, to which shapes are added in the order of painting.
-pub(crate) struct Svg(String);
+pub(crate) struct Svg {
+    text: String,
+    /// The width and the height with which it is shown.
+    size: Place,
+}
 
 /// The look of a text, and its anchor.
 #[derive(Clone, Copy, Debug)]
@@ -30,19 +34,50 @@ pub(crate) enum Anchor {
 
 impl Svg {
     pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
+        Self::scaled(width, height, 1.0, title)
+    }
+
+    /// A drawing that is shown `scale` times as large as its positions and sizes say.
+    pub(crate) fn scaled(width: f64, height: f64, scale: f64, title: &str) -> Self {
+        let size = (scale * width, scale * height);
+        let (shown_width, shown_height) = (number(size.0), number(size.1));
         let (width, height) = (number(width), number(height));
         let title = escaped(title);
-        Self(format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+        let text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{shown_width}\" height=\"{shown_height}\" \
              viewBox=\"0 0 {width} {height}\" font-family=\"{FONTS}\" role=\"img\">\n\
              <title>{title}</title>\n\
              <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
-        ))
+        );
+        Self { text, size }
+    }
+
+    /// The width and the height with which the drawing is shown.
+    pub(crate) fn size(&self) -> Place {
+        self.size
+    }
+
+    /// Adds another drawing by its top left corner.
+    pub(crate) fn drawing(&mut self, (x, y): Place, drawing: Self) {
+        let place = format!("<svg x=\"{}\" y=\"{}\" ", number(x), number(y));
+        let text = drawing.finish();
+        self.text.push_str(&text.replacen("<svg ", &place, 1));
+    }
+
+    /// Adds a picture by its top left corner, from the bytes of a PNG.
+    pub(crate) fn png(&mut self, (x, y): Place, (width, height): Place, png: &[u8]) {
+        let [x, y, width, height] = [x, y, width, height].map(number);
+        // Programs that are older than SVG 2 know `href` by its old name alone.
+        self.element(format_args!(
+            "<image xmlns:xlink=\"http://www.w3.org/1999/xlink\" x=\"{x}\" y=\"{y}\" width=\"{width}\" \
+             height=\"{height}\" xlink:href=\"data:image/png;base64,{}\"/>",
+            base64(png)
+        ));
     }
 
     /// The text of the file.
     pub(crate) fn finish(self) -> String {
-        self.0 + "</svg>\n"
+        self.text + "</svg>\n"
     }
 
     /// Adds a line through these places.
@@ -79,6 +114,37 @@ impl Svg {
         self.element(format_args!(
             "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{color}\"/>"
         ));
+    }
+
+    /// Adds a rectangle with a thin gray edge, which shows any color on white.
+    pub(crate) fn swatch(&mut self, (x, y): Place, side: f64, color: &str) {
+        // The edge lies inside.
+        let [x, y, side] = [x + 0.5, y + 0.5, side - 1.0].map(number);
+        self.element(format_args!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{side}\" height=\"{side}\" fill=\"{color}\" stroke=\"#808080\" \
+             stroke-width=\"1\"/>"
+        ));
+    }
+
+    /// Adds a rectangle with a gradient from the left to the right through evenly spaced colors. `name` is that of no
+    /// other gradient of the drawing.
+    pub(crate) fn gradient(
+        &mut self,
+        (x, y): Place,
+        (width, height): Place,
+        colors: &[String],
+        name: &str,
+    ) {
+        self.element(format_args!("<linearGradient id=\"{name}\">"));
+        let last = colors.len().saturating_sub(1).max(1) as f64;
+        for (index, color) in colors.iter().enumerate() {
+            let offset = number(100.0 * index as f64 / last);
+            self.element(format_args!(
+                "<stop offset=\"{offset}%\" stop-color=\"{color}\"/>"
+            ));
+        }
+        self.element(format_args!("</linearGradient>"));
+        self.rectangle((x, y), (width, height), &format!("url(#{name})"));
     }
 
     /// Adds a square that stands on a corner.
@@ -125,8 +191,28 @@ impl Svg {
 
     fn element(&mut self, element: std::fmt::Arguments<'_>) {
         // Writing into a string cannot fail.
-        let _ = writeln!(self.0, "{element}");
+        let _ = writeln!(self.text, "{element}");
     }
+}
+
+/// Bytes in base 64, as RFC 4648 defines it.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let byte = |index: usize| u32::from(group.get(index).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for digit in 0..4 {
+            let is_there = digit <= group.len();
+            let value = (bits >> (18 - 6 * digit)) & 63;
+            text.push(if is_there {
+                char::from(DIGITS[value as usize])
+            } else {
+                '='
+            });
+        }
+    }
+    text
 }
 
 /// Two decimals are finer than the pixels of any screen.
@@ -157,6 +243,23 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The vectors of RFC 4648, section 10.
+    #[test]
+    fn bytes_are_written_in_base_64() {
+        for (bytes, text) in [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
+            ("foobar", "Zm9vYmFy"),
+        ] {
+            assert_eq!(base64(bytes.as_bytes()), text);
+        }
+        assert_eq!(base64(&[0xff, 0xef, 0xbe]), "/+++");
+    }
 
     #[test]
     fn numbers_are_short() {

@@ -139,3 +139,33 @@ fn wrong_tables_and_options_are_refused() {
     }
     assert!(!folder.path("b.ron").exists() && !folder.path("cut.ron").exists());
 }
+
+#[test]
+fn drawings_inside_stand_next_to_the_picture() {
+    let folder = folder();
+    let line = "render points.csv --size 640x400 --samples 1 -o a.png --legend inside --scale-bar=inside --set unit=\"mm\"";
+    let rendered = folder.run(line);
+    assert_eq!(code(&rendered), 0, "{}", text(&rendered.stderr));
+    let figure = String::from_utf8(folder.read("a.svg")).unwrap();
+    assert!(figure.starts_with("<svg xmlns"), "{figure}");
+    // The legend is 340 wide.
+    assert!(figure.contains("width=\"980\" height=\"400\""), "{figure}");
+    assert!(figure.contains("data:image/png;base64,iVBORw0KGgo"));
+    assert_eq!(figure.matches("<svg x=\"640\" y=").count(), 2, "{figure}");
+    assert!(
+        figure.contains(">mass</text>") && figure.contains(" mm</text>"),
+        "{figure}"
+    );
+    assert_eq!(figure.matches("</svg>").count(), 3);
+    for more in ["-o a.exr", "--turntable=2", "-o b.png --region 0,0,9,9"] {
+        let refused = folder.run(&format!(
+            "render points.csv --samples 1 --legend inside {more}"
+        ));
+        assert_eq!(code(&refused), 2, "{more}");
+        let errors = text(&refused.stderr);
+        assert!(
+            errors.contains("next to a single whole picture in PNG"),
+            "{errors}"
+        );
+    }
+}

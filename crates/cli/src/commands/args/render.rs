@@ -191,13 +191,14 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) sidecar: bool,
 
-    /// Draw a legend for the colors of clouds: a colormap with numbers, or categories
-    #[arg(long, value_name = "FILE.svg")]
+    /// Draw a legend for the colors of clouds: a colormap with numbers, or categories. `inside` puts it next to the
+    /// picture, into NAME.svg for NAME.png
+    #[arg(long, value_name = "FILE.svg|inside")]
     pub(crate) legend: Option<PathBuf>,
 
     /// Draw a scale bar with a round length. With a parallel lens it is valid everywhere, else at the distance of
-    /// the camera's target
-    #[arg(long, value_name = "FILE.svg")]
+    /// the camera's target. `inside` puts it next to the picture, as for --legend
+    #[arg(long, value_name = "FILE.svg|inside")]
     pub(crate) scale_bar: Option<PathBuf>,
 
     /// Form of the progress reports [default: a bar on a terminal, else plain]
