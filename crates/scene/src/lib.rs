@@ -41,8 +41,8 @@ pub use figure::{Figure, ViewAngle, ViewAngleError};
 pub use motion::{FrameError, FrameFault};
 pub use report::{SceneError, SceneFault};
 pub use scene::{
-    CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description, Scene, Setting,
-    SettingError,
+    CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description, OrbitCamera,
+    OrbitCenter, Scene, Setting, SettingError, Unturnable,
 };
 pub use table::written_time;
 pub use text::harmless;

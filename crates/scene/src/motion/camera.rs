@@ -80,6 +80,35 @@ impl CameraMotion {
         Some(framing.scale)
     }
 
+    /// Returns whether some key moves the camera, or changes its zoom.
+    pub(crate) fn is_keyed(&self) -> bool {
+        self.channels.is_keyed() || self.zoom.is_keyed()
+    }
+
+    /// The azimuth, elevation and roll, in degrees, that a still orbit or a camera that frames has in the file.
+    pub(crate) fn orbit_angles(&self) -> Option<[f64; 3]> {
+        let angles = self.channels.angles().map(|curve| curve.at(0.0));
+        self.channels.is_orbit().then_some(angles)
+    }
+
+    /// The target and the radius of a still orbit.
+    pub(crate) fn orbit_center(&self) -> Option<(DVec3, f64)> {
+        let is_orbit = self.channels.is_orbit();
+        is_orbit.then(|| (self.channels.target(), self.channels.radius()))
+    }
+
+    /// Makes the camera a still orbit with these angles in degrees and this zoom. Without a target and a radius it keeps
+    /// its own. A turntable still turns it.
+    pub(crate) fn orbit(&mut self, around: Option<(DVec3, f64)>, degrees: [f64; 3], zoom: f64) {
+        self.channels.orbit(around, degrees);
+        self.zoom(zoom);
+    }
+
+    /// Makes this the zoom at all times.
+    pub(crate) fn zoom(&mut self, zoom: f64) {
+        self.zoom = Curve::constant(zoom);
+    }
+
     /// The camera's target, at rest; the origin where it has none.
     pub(crate) fn target(&self) -> DVec3 {
         self.channels.target()

@@ -68,6 +68,11 @@ impl Channels {
         self.target.at(0.0)
     }
 
+    /// The radius where no time has passed; 0 where there is none.
+    pub(super) fn radius(&self) -> f64 {
+        self.radius.at(0.0)
+    }
+
     /// The target at a time in frames, of cameras that have one.
     pub(super) fn target_at(&self, time: f64) -> Option<DVec3> {
         matches!(self.kind, Kind::LookAt | Kind::Orbit).then(|| self.target.at(time))
@@ -76,6 +81,37 @@ impl Channels {
     /// Azimuth, elevation and roll of an orbit.
     pub(super) fn angles(&self) -> [&Curve; 3] {
         [&self.azimuth, &self.elevation, &self.roll]
+    }
+
+    /// Returns whether some key names a channel.
+    pub(super) fn is_keyed(&self) -> bool {
+        let points = [&self.position, &self.target];
+        let numbers = [
+            &self.radius,
+            &self.pan,
+            &self.tilt,
+            &self.azimuth,
+            &self.elevation,
+            &self.roll,
+        ];
+        let of_points = points.iter().flat_map(|point| &point.0);
+        of_points.chain(numbers).any(Curve::is_keyed)
+    }
+
+    /// Returns whether this is an orbit, which may frame its spheres.
+    pub(super) fn is_orbit(&self) -> bool {
+        matches!(self.kind, Kind::Orbit)
+    }
+
+    /// Makes this a still orbit with these angles in degrees. Without a target and a radius it keeps its own.
+    pub(super) fn orbit(&mut self, around: Option<(DVec3, f64)>, degrees: [f64; 3]) {
+        self.kind = Kind::Orbit;
+        [self.azimuth, self.elevation, self.roll] = degrees.map(Curve::constant);
+        if let Some((target, radius)) = around {
+            self.target = PointCurve::constant(target);
+            self.radius = Curve::constant(radius);
+            self.aside = None;
+        }
     }
 
     /// Places an orbit where it frames its spheres.

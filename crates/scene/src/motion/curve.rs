@@ -69,6 +69,11 @@ impl Curve {
         Self::new(value, Vec::new())
     }
 
+    /// Returns whether some key names it.
+    pub(super) fn is_keyed(&self) -> bool {
+        !self.keys.is_empty()
+    }
+
     /// Returns whether the value is the same at all times.
     pub(super) fn is_constant(&self) -> bool {
         let mut pairs = self.keys.windows(2);

@@ -99,6 +99,12 @@ impl Lights {
         self.lights.iter().any(|light| light.kind.lacks_reference())
     }
 
+    /// Returns whether some light without a reference distance that it needs is attached to the camera.
+    pub(crate) fn lack_attached_references(&self) -> bool {
+        let mut lights = self.lights.iter();
+        lights.any(|light| light.is_attached && light.kind.lacks_reference())
+    }
+
     /// Gives each of the lights that lack a reference distance the one that `distance` finds for its position among
     /// `placed`, the same lights in a frame.
     pub(crate) fn choose_references(

@@ -8,11 +8,12 @@ use std::sync::Arc;
 
 use super::other_file::{self, Kind};
 use super::oversights;
+use super::own_camera::AsWritten;
 use super::refused::refused;
 use super::setting::Setting;
 use super::{Description, Scene};
 use crate::figure::Figure;
-use crate::file::{Camera, File, FrameOver, Materials};
+use crate::file::{Camera, File, Materials};
 use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
 use crate::text::{Fault, Placed, Read, Slice, collect, optional, reason, set, token};
@@ -195,8 +196,6 @@ impl Scene {
 struct Draft {
     scene: Scene,
     clouds: Vec<Cloud>,
-    /// The part of the picture that a framing camera fills, and with which spheres.
-    fill: Option<(f64, FrameOver)>,
     /// The place of the camera in the text.
     camera: Range<usize>,
 }
@@ -222,11 +221,12 @@ impl Draft {
             } => Some((fill.get()?.0, frame_over.get()?)),
             _ => None,
         };
+        let lens = lens?;
         let scene = Scene {
             world,
             motion: motion?,
-            lights,
-            lens: lens?,
+            lights: lights.clone(),
+            lens,
             width: image.width.get()?.0,
             height: image.height.get()?.0,
             description: Description {
@@ -242,12 +242,13 @@ impl Draft {
             hints: oversights::hints(file),
             series: None,
             framed: Vec::new(),
+            as_written: AsWritten { lens, fill, lights },
+            own_camera: None,
             tables: Vec::new(),
         };
         Some(Self {
             scene,
             clouds,
-            fill,
             camera: file.camera.place.clone(),
         })
     }
@@ -314,7 +315,7 @@ impl Draft {
             let series = Series::new(scene.world.clone(), parts, first_frame, source);
             scene.series = Some(Arc::new(series));
         }
-        if let Some((fill, over)) = self.fill {
+        if let Some((fill, over)) = scene.as_written.fill {
             let is_framed = scene.place_camera(fill, over)?;
             if is_framed.is_none() {
                 let place = self.camera.start..token::token_end(text, self.camera.start);

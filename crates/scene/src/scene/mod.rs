@@ -3,8 +3,10 @@
 mod clouds;
 mod description;
 mod load;
+mod orbit;
 mod other_file;
 mod oversights;
+mod own_camera;
 mod references;
 mod refused;
 mod setting;
@@ -21,9 +23,12 @@ use crate::motion::{
 };
 use crate::report::SceneError;
 use crate::world::{ColumnSummary, OpenCloud, Series, StepKey};
+use own_camera::{AsWritten, OwnCamera};
+
 pub use description::{
     CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description,
 };
+pub use orbit::{OrbitCamera, OrbitCenter, Unturnable};
 pub use setting::{Setting, SettingError};
 
 /// A scene file that was read and found valid.
@@ -61,6 +66,10 @@ pub struct Scene {
     series: Option<Arc<Series>>,
     /// Cameras that frame the spheres of each step alone.
     framed: Vec<(StepKey, CameraMotion, Lens)>,
+    /// The parts of the file that the spheres have a say in.
+    as_written: AsWritten,
+    /// Present if another camera is in the place of the scene's own.
+    own_camera: Option<Box<OwnCamera>>,
     /// The clouds in the order of the file.
     tables: Vec<Arc<OpenCloud>>,
 }

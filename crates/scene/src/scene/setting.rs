@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crate::text::quoted;
+use crate::text::{quoted, set};
 
 /// A value that takes the place of a scene file's own.
 ///
@@ -54,6 +54,22 @@ impl Setting {
             path: path.to_owned(),
             value: value.to_owned(),
         }
+    }
+}
+
+impl Setting {
+    /// The text of a scene file with this value.
+    ///
+    /// # Errors
+    /// Returns what was expected if the file does not have what the path names.
+    pub fn put_into(&self, text: &str) -> Result<String, String> {
+        set(text, &self.path, &self.value)
+    }
+
+    /// Returns whether this is a value of the camera, or the zoom.
+    pub fn is_of_camera(&self) -> bool {
+        let name = self.path.split(['.', '[']).next();
+        matches!(name, Some("camera" | "zoom"))
     }
 }
 

@@ -38,8 +38,7 @@ struct Inside<'t> {
 pub(crate) fn set(text: &str, path: &str, value: &str) -> Result<String, String> {
     let parts = parts(path)?;
     let value = one_value(value)?;
-    let start = skip_trivia(text, 0);
-    let mut place = start..value_end(text, start);
+    let mut place = whole(text);
     for (index, part) in parts.iter().enumerate() {
         let is_last = index + 1 == parts.len();
         let inside = inside(text, place.clone());
@@ -68,6 +67,37 @@ pub(crate) fn set(text: &str, path: &str, value: &str) -> Result<String, String>
     }
     let (before, after) = (&text[..place.start], &text[place.end..]);
     Ok(format!("{before}{value}{after}"))
+}
+
+/// The value at `path`; `None` where there is none.
+pub(crate) fn value_at<'t>(text: &'t str, path: &str) -> Option<&'t str> {
+    Some(&text[place_of(text, path)?])
+}
+
+/// The text with more text behind the value at `path`, before the comma that may follow.
+///
+/// # Errors
+/// Returns what was expected if there is no such value.
+pub(crate) fn append_after(text: &str, path: &str, more: &str) -> Result<String, String> {
+    let place = place_of(text, path);
+    let place = place.ok_or_else(|| format!("expected `{path}`, found none"))?;
+    let (before, after) = text.split_at(place.end);
+    Ok(format!("{before}{more}{after}"))
+}
+
+/// The place of the value at `path`.
+fn place_of(text: &str, path: &str) -> Option<Range<usize>> {
+    let parts = parts(path).ok()?;
+    let from_all = Some(whole(text));
+    parts
+        .iter()
+        .fold(from_all, |place, part| find(&inside(text, place?)?, part))
+}
+
+/// The place of the value that a text is.
+fn whole(text: &str) -> Range<usize> {
+    let start = skip_trivia(text, 0);
+    start..value_end(text, start)
 }
 
 /// The value in a text without what surrounds it. What ends it early, or leaves it open, would change the text around.

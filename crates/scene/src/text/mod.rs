@@ -11,7 +11,7 @@ mod slice;
 mod suggest;
 pub(crate) mod token;
 
-pub(crate) use edit::set;
+pub(crate) use edit::{append_after, set, value_at};
 pub(crate) use fault::{Fault, Names, collect, note_failure, refuse};
 pub(crate) use located::{LocatedFault, Place};
 pub(crate) use placed::{
