@@ -8,7 +8,7 @@ pub(crate) mod exr;
 pub(crate) mod facts;
 pub(crate) mod form;
 pub(crate) mod frame_rate;
-mod gif;
+pub(crate) mod gif;
 mod guard;
 mod half;
 mod jpeg;

@@ -6,6 +6,7 @@ pub(crate) mod bar;
 pub(crate) mod console;
 pub(crate) mod interrupt;
 pub(crate) mod keyboard;
+pub(crate) mod keys;
 pub(crate) mod lines;
 pub(crate) mod progress;
 pub(crate) mod signals;

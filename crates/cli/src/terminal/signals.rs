@@ -27,6 +27,31 @@ pub(super) fn on_each(handle: impl Fn() + Send + 'static) {
     let _ = ctrlc::set_handler(handle);
 }
 
+/// From now on, calls `before` on a separate thread when the terminal asks the process to stop (Ctrl-Z), and `after` when
+/// it continues.
+#[cfg(unix)]
+pub(super) fn on_stop(before: fn(), after: fn()) {
+    use signal_hook::{consts::SIGTSTP, low_level};
+
+    if ignored() >> (SIGTSTP - 1) & 1 != 0 {
+        return;
+    }
+    if let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGTSTP]) {
+        let _ = std::thread::Builder::new().spawn(move || {
+            for _ in signals.forever() {
+                before();
+                // Which returns when the process continues.
+                let _ = low_level::emulate_default_handler(SIGTSTP);
+                after();
+            }
+        });
+    }
+}
+
+/// Other systems do not stop processes.
+#[cfg(not(unix))]
+pub(super) fn on_stop(_before: fn(), _after: fn()) {}
+
 /// Makes writing beyond the file size limit fail, instead of ending the process.
 pub(crate) fn outlive_file_limits() {
     #[cfg(unix)]

@@ -7,6 +7,7 @@
 
 mod animation;
 mod atoms;
+mod camera_by_hand;
 mod channels;
 mod compare;
 mod damage;

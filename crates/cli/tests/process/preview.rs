@@ -11,21 +11,21 @@ use crate::folder::{BALL, Folder};
 use crate::signals::wait_until;
 
 /// `marbles` in a terminal, and the output so far.
-struct Terminal {
+pub(crate) struct Terminal {
     script: Child,
-    keyboard: ChildStdin,
+    pub(crate) keyboard: ChildStdin,
     shown: Arc<Mutex<Vec<u8>>>,
     reader: Option<JoinHandle<()>>,
 }
 
 impl Terminal {
     /// A terminal of this size; `None` if it is not available.
-    fn run(folder: &Folder, size: (u32, u32), arguments: &str) -> Option<Self> {
+    pub(crate) fn run(folder: &Folder, size: (u32, u32), arguments: &str) -> Option<Self> {
         Self::run_beside(folder, size, ":", arguments)
     }
 
     /// The same, after another command.
-    fn run_beside(
+    pub(crate) fn run_beside(
         folder: &Folder,
         (columns, rows): (u32, u32),
         other: &str,
@@ -73,12 +73,12 @@ impl Terminal {
         screens
     }
 
-    fn shown(&self) -> String {
+    pub(crate) fn shown(&self) -> String {
         String::from_utf8_lossy(&self.shown.lock().unwrap()).into_owned()
     }
 
     /// Waits for the end of `marbles`, but not forever; returns the exit code and all output.
-    fn end(mut self) -> (Option<i32>, String) {
+    pub(crate) fn end(mut self) -> (Option<i32>, String) {
         /// Ending takes no time, except when other processes use the processors.
         const LIMIT: Duration = Duration::from_secs(60);
         let started = Instant::now();
@@ -108,7 +108,7 @@ impl Drop for Terminal {
 fn a_picture_fills_the_terminal() {
     let folder = Folder::new();
     for (size, expected) in [((40, 12), (20, 10)), ((7, 12), (7, 4)), ((1, 1), (1, 1))] {
-        let Some(terminal) = Terminal::run(&folder, size, "preview ball.ron") else {
+        let Some(terminal) = Terminal::run(&folder, size, "preview ball.ron --once") else {
             return;
         };
         let (code, shown) = terminal.end();

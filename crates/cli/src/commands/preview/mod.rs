@@ -1,9 +1,11 @@
 //! `marbles preview`: shows a frame of a scene, or a picture, in the terminal.
 
 mod blocks;
+mod hand;
 mod kitty;
 mod picture;
 mod screen;
+mod sixel;
 mod stored;
 mod watch;
 
@@ -16,6 +18,7 @@ use crate::base::size::Size;
 use crate::base::{status, threads};
 use crate::terminal::console::Console;
 use crate::terminal::interrupt;
+use crate::terminal::keyboard::Keyboard;
 use crate::terminal::progress::Progress;
 
 /// The number of lines left free for the shell's prompt.
@@ -31,6 +34,9 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
     let threads = threads::start(None)?;
     if arguments.watch {
         return threads.install(|| watch::run(arguments, &screen, console));
+    }
+    if screen.is_terminal && !arguments.once && Keyboard::is_there() {
+        return threads.install(|| hand::run(arguments, &screen, console));
     }
     let scene =
         threads.install(|| scene::load(&arguments.scene, &arguments.options, console, false))?;

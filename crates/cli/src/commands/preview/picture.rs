@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use marbles_core::{Cancelled, Method, Renderer, Settings, View, World};
+use marbles_core::{Cancelled, Exposure, Method, Renderer, Settings, View, World};
 use marbles_scene::Scene;
 
 use crate::base::size::Size;
@@ -22,9 +22,25 @@ impl Picture {
         let width = self.size.width as usize;
         &self.codes[row as usize * width..][..width]
     }
+
+    /// The picture in another size, in which each pixel has the color of the nearest one.
+    pub(super) fn stretched(&self, size: Size) -> Self {
+        let nearest = |index: u32, of: u32, from: u32| {
+            let twice = u64::from(2 * index + 1) * u64::from(from);
+            (twice / (2 * u64::from(of))) as u32
+        };
+        let codes = size.places().map(|(col, row)| {
+            let col = nearest(col, size.width, self.size.width);
+            self.row(nearest(row, size.height, self.size.height))[col as usize]
+        });
+        Self {
+            size,
+            codes: codes.collect(),
+        }
+    }
 }
 
-/// Renders on the threads of the current pool.
+/// Renders on the threads of the current pool, until the user asks to end the work.
 pub(super) fn render(
     (scene, world): (&Scene, &World),
     view: &View,
@@ -35,21 +51,37 @@ pub(super) fn render(
         progress.prepare(world.spheres().len());
     }
     let renderer = Renderer::new(world);
+    render_until(
+        &renderer,
+        scene.exposure(view),
+        Method::Tolerance(tolerance),
+        &|pixels| {
+            if let Some(progress) = progress {
+                progress.advance(pixels);
+            }
+            interrupt::requested()
+        },
+    )
+}
+
+/// Renders on the threads of the current pool until `is_over`, which is called with the number of pixels that were
+/// rendered since the last call.
+pub(super) fn render_until(
+    renderer: &Renderer<'_>,
+    exposure: Exposure<'_>,
+    method: Method,
+    is_over: &(dyn Fn(u64) -> bool + Sync),
+) -> Result<Picture, Cancelled> {
+    let size = Size::of(exposure.view());
     let settings = Settings {
-        method: Method::Tolerance(tolerance),
+        method,
         alpha: false,
     };
-    let image = renderer.render_with_progress(scene.exposure(view), &settings, &|pixels| {
-        if let Some(progress) = progress {
-            progress.advance(pixels);
-        }
-        if interrupt::requested() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    })?;
-    let size = Size::of(view);
+    let image =
+        renderer.render_with_progress(exposure, &settings, &|pixels| match is_over(pixels) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        })?;
     let codes = size.places().map(|(col, row)| {
         let [red, green, blue, _] = image.rgba(col, row);
         [red, green, blue].map(srgb::encode_8)

@@ -43,7 +43,7 @@ pub(super) fn run(
     }
     interrupt::listen(console);
     let _keyboard = Keyboard::listen(interrupt::request);
-    let _screen = AlternateScreen::enter(console);
+    let alternate = AlternateScreen::enter(console);
     let mut files = Files::of(&arguments.scene);
     while !interrupt::requested() {
         let area = screen.area(STATUS_LINES);
@@ -54,8 +54,10 @@ pub(super) fn run(
         };
         let scene = arguments.scene.shown();
         let status = format!("{scene}: updated when you save it; q quits");
-        console.print(&(shown + &status_line(&status, screen.cells())));
-        wait(&mut files, || screen.area(STATUS_LINES) != area);
+        console.print(&(shown + &screen.last_line(&status)));
+        wait(&mut files, || {
+            alternate.was_stopped() || screen.area(STATUS_LINES) != area
+        });
     }
     Ok(match Keyboard::was_pressed() {
         true => status::SUCCESS,
@@ -170,12 +172,6 @@ fn message(text: &str, (columns, rows): (u32, u32)) -> String {
         shown.push('\n');
     }
     shown
-}
-
-/// A text on the last line, cut at the end of the line.
-fn status_line(text: &str, (columns, rows): (u32, u32)) -> String {
-    let text = console::truncate_str(text, columns as usize, "…");
-    format!("\x1b[{rows};1H{text}\x1b[K")
 }
 
 #[cfg(test)]

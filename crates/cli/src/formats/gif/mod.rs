@@ -3,6 +3,8 @@
 mod animation;
 mod dither;
 mod histogram;
+mod indexed;
 mod palette;
 
 pub(super) use self::animation::{Animation, MOST_FRAMES_PER_SECOND, MOST_SECONDS};
+pub(crate) use self::indexed::Indexed;
