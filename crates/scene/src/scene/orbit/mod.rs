@@ -7,7 +7,7 @@ mod text;
 mod tests;
 
 use glam::DVec3;
-use marbles_core::View;
+use marbles_core::{Camera, View};
 
 use super::Scene;
 use super::own_camera::{AsWritten, OwnCamera};
@@ -155,10 +155,10 @@ impl Scene {
             return match (self.has_steps(), view.lens.is_parallel()) {
                 (false, _) => Ok(OrbitCenter::Framed),
                 (true, true) => Err(Unturnable::ScaledByAllSteps),
-                (true, false) => Ok(OrbitCenter::At {
-                    target: camera.on_axis,
-                    radius: (camera.on_axis - camera.position).length(),
-                }),
+                (true, false) => {
+                    let radius = (camera.on_axis - camera.position).length();
+                    Ok(rounded_center(camera, radius))
+                }
             };
         }
         if let Some((target, radius)) = motion.orbit_center() {
@@ -171,14 +171,7 @@ impl Scene {
         }
         let world = self.world_at(frame).map_err(|_| Unturnable::NothingSeen)?;
         let radius = seen::distance(view, world.spheres()).ok_or(Unturnable::NothingSeen)?;
-        let digits = digits(radius);
-        let radius = rounded(radius, digits);
-        let target = camera.position + radius * camera.forward();
-        let target = target.to_array().map(|number| rounded(number, digits));
-        Ok(OrbitCenter::At {
-            target: target.into(),
-            radius,
-        })
+        Ok(rounded_center(camera, radius))
     }
 
     /// Puts a camera in the place of the scene's own, as if the file had it. A turntable still turns it.
@@ -263,6 +256,18 @@ impl Scene {
                 kind: self.description.camera,
             }));
         }
+    }
+}
+
+/// The point at about this distance in front of a camera, and its distance.
+fn rounded_center(camera: &Camera, distance: f64) -> OrbitCenter {
+    let digits = digits(distance);
+    let radius = rounded(distance, digits);
+    let target = camera.position + radius * camera.forward();
+    let target = target.to_array().map(|number| rounded(number, digits));
+    OrbitCenter::At {
+        target: target.into(),
+        radius,
     }
 }
 

@@ -265,3 +265,41 @@ fn the_middle_of_the_picture_counts_first() {
     assert!((4.0..6.9).contains(&radius(&format!("{near}, {wall}"))));
     assert!((44.0..50.0).contains(&radius(aside)));
 }
+
+/// All steps of a table would have to be read again for each angle.
+#[test]
+fn a_camera_of_steps_keeps_its_distance() {
+    let name = format!("marbles orbit {}", std::process::id());
+    let folder = std::env::temp_dir().join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    let table = "1\n\nO 0 0 0\n1\n\nO 4 1 2\n";
+    std::fs::write(folder.join("steps.xyz"), table).unwrap();
+    let text = "(image: (width: 64, height: 48), lens: Fov(40), camera: Frame(azimuth: 10),
+        clouds: [(file: \"steps.xyz\", frames: All)])";
+    let path = folder.join("scene.ron");
+    let mut scene = Scene::parse(text, &path).unwrap();
+    let before = scene.view(2).unwrap();
+    let start = scene.orbit_camera(2).unwrap();
+    scene.set_orbit_camera(&start).unwrap();
+    let seen = scene.view(2).unwrap();
+    let center = DVec3::new(4.0, 1.0, -2.0);
+    let [one, other] = [before, seen].map(|view| view.project(center).unwrap());
+    assert!(one.distance(other) < 1e-3, "{one} {other}");
+    let turned = OrbitCamera {
+        azimuth: 30.0,
+        ..start
+    };
+    scene.set_orbit_camera(&turned).unwrap();
+    let after = turned.put_into(text).unwrap();
+    // The middle of both places, with z negated.
+    assert!(
+        after.contains("camera: Orbit(target: (2, 0.5, -1), radius: "),
+        "{after}"
+    );
+    let read = Scene::parse(&after, &path).unwrap();
+    assert_eq!(read.view(2), scene.view(2));
+    let parallel = text.replace("Fov(40)", "Parallel(width: 9)");
+    let scene = Scene::parse(&parallel, &path).unwrap();
+    assert_eq!(scene.orbit_camera(1), Err(Unturnable::ScaledByAllSteps));
+    std::fs::remove_dir_all(folder).unwrap();
+}
