@@ -282,6 +282,7 @@ mod tests {
         let drawn = svg.finish();
         assert_eq!(drawn.matches("<linearGradient id=\"colors-3\">").count(), 1);
         assert_eq!(drawn.matches("fill=\"url(#colors-3)\"").count(), 1);
+        assert_eq!(drawn.matches("<stop ").count(), STOPS);
         assert!(drawn.contains("<stop offset=\"0%\" stop-color=\"#000000\"/>"));
         assert!(drawn.contains("<stop offset=\"100%\" stop-color=\"#ffffff\"/>"));
         // 127 of 255 by the definition of sRGB: 187.4 of 255.

@@ -2,9 +2,12 @@
 
 mod eye;
 mod lights;
+mod sight;
 
-use marbles_core::{Sphere, View, World};
+use marbles_core::{View, World};
 use rayon::prelude::*;
+
+use self::sight::may_be_seen;
 
 /// The most views that are checked; of longer animations, evenly spread ones.
 const VIEWS: usize = 9;
@@ -53,31 +56,6 @@ pub(super) fn warnings(
         }
     }
     warnings
-}
-
-/// Returns false only if no sphere can be in the picture.
-fn may_be_seen(sphere: &Sphere, view: &View) -> bool {
-    let camera = &view.camera;
-    let from_eye = camera.world_from_camera.transpose() * (sphere.center() - camera.position);
-    let radius = sphere.radius();
-    let (middle, width) = view.screen_window();
-    let half_width = 0.5 * width;
-    let half_height = half_width * f64::from(view.height) / f64::from(view.width);
-    let (x, y, z) = (from_eye.x, from_eye.y, from_eye.z);
-    if z + radius <= 0.0 {
-        return false;
-    }
-    // How far the center is outside of a side of the picture, across it.
-    let outside = |along: f64, middle: f64, half: f64| {
-        if view.lens.is_parallel() {
-            (along - middle).abs() - half
-        } else {
-            let of_side =
-                |slope: f64, sign: f64| sign * (along - slope * z) / (1.0 + slope * slope).sqrt();
-            of_side(middle + half, 1.0).max(of_side(middle - half, -1.0))
-        }
-    };
-    outside(x, middle.x, half_width) < radius && outside(y, middle.y, half_height) < radius
 }
 
 #[cfg(test)]

@@ -17,8 +17,7 @@ pub(super) fn find(name: &str) -> Option<u32> {
 
 /// The end of a message about an unknown name: the known name that is closest to it, if there is one.
 pub(super) fn did_you_mean(name: &str) -> String {
-    let joined = name.replace([' ', '-', '_'], "");
-    text::did_you_mean(&joined, names().map(|(name, _)| name), |name| {
+    text::did_you_mean(name, names().map(|(name, _)| name), |name| {
         format!("\"{name}\"")
     })
 }

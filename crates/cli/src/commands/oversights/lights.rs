@@ -6,7 +6,7 @@ use glam::DVec3;
 use marbles_core::{Color, Light, LightFalloff, Sphere, View, World};
 use rayon::prelude::*;
 
-use super::may_be_seen;
+use super::sight::may_be_seen;
 use crate::base::numbers::short;
 
 /// A light that adds no more than this makes no difference that anybody sees: white is 1.
@@ -75,11 +75,14 @@ pub(super) fn behind(world: &World, views: &[&View]) -> Option<String> {
     if views.iter().any(any_is_lit) {
         return None;
     }
-    let seen = views.iter().flat_map(|view| {
-        let seen = spheres.iter().filter(|sphere| may_be_seen(sphere, view));
-        seen.map(|sphere| share_lit(world, sphere, view))
-    });
-    let percent = 100.0 * seen.fold(0.0, f64::max);
+    let most_in = |view: &&View| {
+        let seen = spheres
+            .par_iter()
+            .filter(|sphere| may_be_seen(sphere, view));
+        let shares = seen.map(|sphere| share_lit(world, sphere, view));
+        shares.reduce(|| 0.0, f64::max)
+    };
+    let percent = 100.0 * views.iter().map(most_in).fold(0.0, f64::max);
     let rest = match world.ambient.max_element() > 0.0 {
         true => "only ambient light shows",
         false => "the spheres are black",
