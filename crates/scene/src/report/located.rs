@@ -75,7 +75,11 @@ fn place(path: &Path, fault: &LocatedFault) -> String {
     let path = harmless(&path.to_string_lossy());
     match &fault.place {
         Place::Text { .. } => format!("{path}:{line}:{column}:"),
-        Place::Row { byte, .. } => format!("{path}: row {line}, column {column}, byte {byte}:"),
+        Place::Row { byte, .. } => {
+            let byte = byte.map(|byte| format!(", byte {byte}"));
+            let byte = byte.unwrap_or_default();
+            format!("{path}: row {line}, column {column}{byte}:")
+        }
         Place::File => format!("{path}:"),
     }
 }

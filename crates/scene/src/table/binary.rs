@@ -5,6 +5,7 @@ use std::io::{ErrorKind, Read};
 
 use rayon::prelude::*;
 
+use super::array::Column;
 pub(crate) use super::columns::plan_of_kinds as plan;
 use super::columns::{Plan, Slot, Test};
 use super::element;
@@ -28,18 +29,6 @@ pub(crate) struct Layout {
     pub(crate) is_by_column: bool,
     /// The noun for rows in messages.
     pub(crate) noun: &'static str,
-}
-
-/// A column that is in memory.
-#[derive(Clone, Debug)]
-pub(crate) struct Column<'a> {
-    pub(crate) kind: Kind,
-    pub(crate) bytes: Cow<'a, [u8]>,
-    /// The place of its first value among the bytes, and the way to the next.
-    pub(crate) offset: usize,
-    pub(crate) step: usize,
-    /// The byte of the file at which the bytes start.
-    pub(crate) start: u64,
 }
 
 impl Layout {
@@ -141,9 +130,25 @@ pub(crate) fn read_columns(
     count: u64,
     plan: &Plan,
 ) -> Result<Rows, TableError> {
+    let mut rows = Rows::new(plan);
+    append_columns(&mut rows, columns, count, plan)?;
+    Ok(rows)
+}
+
+/// About as many rows of this size as are held at a time.
+pub(crate) fn rows_of_block(size: u64) -> u64 {
+    (BLOCK / size.max(1)).max(1)
+}
+
+/// Reads rows of columns that are in memory, which follow others of the same table.
+pub(crate) fn append_columns(
+    rows: &mut Rows,
+    columns: &[Column<'_>],
+    count: u64,
+    plan: &Plan,
+) -> Result<(), TableError> {
     let kinds: Vec<Kind> = columns.iter().map(|column| column.kind).collect();
     check_row(count, "rows", &kinds)?;
-    let mut rows = Rows::new(plan);
     let mut values = Vec::new();
     for (index, (uses, column)) in plan.uses.iter().zip(columns).enumerate() {
         values.extend(uses.slots().iter().map(|&slot| Value {
@@ -158,12 +163,11 @@ pub(crate) fn read_columns(
     }
     let block = Block {
         plan,
-        first: 0,
+        first: rows.read,
         count: count as usize,
         values,
     };
-    block.decode_all(&mut rows)?;
-    Ok(rows)
+    block.decode_all(rows)
 }
 
 /// Reads columns whose values lie side by side, one after another.
@@ -186,7 +190,7 @@ fn whole_columns(
             bytes: Cow::Owned(bytes),
             offset: 0,
             step: kind.size() as usize,
-            start,
+            start: Some(start),
         });
     }
     Ok(columns)
@@ -222,8 +226,8 @@ struct Value<'a> {
     /// The place of its first in the bytes, and the way to the next.
     offset: usize,
     step: usize,
-    /// The byte of the file at which the bytes start.
-    place: u64,
+    /// The byte of the file at which the bytes start, where they stand there as they are.
+    place: Option<u64>,
 }
 
 impl Value<'_> {
@@ -272,7 +276,7 @@ fn values<'a>(
             bytes,
             offset: offset as usize,
             step: step as usize,
-            place: place.saturating_sub(offset),
+            place: Some(place.saturating_sub(offset)),
         }));
         offset += size;
         before += kind.size();
@@ -395,7 +399,9 @@ impl Block<'_> {
         Place::Row {
             row: self.first + row as u64 + 1,
             column: value.column + 1,
-            byte: value.place + (value.offset + row * value.step) as u64,
+            byte: value
+                .place
+                .map(|start| start + (value.offset + row * value.step) as u64),
         }
     }
 

@@ -8,7 +8,7 @@ use super::foreign::{self, Foreign};
 use super::form::{self, LineKind};
 use super::input::without_return;
 use super::number::parse;
-use super::{npy, npz, poscar, pqr, vtk};
+use super::{gsd, npy, npz, poscar, pqr, vtk, vtk_xml};
 
 /// The format of a table.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -17,6 +17,7 @@ pub(crate) enum Format {
     /// Rows of text whose separators the first line tells.
     Text,
     Gro,
+    Gsd,
     Lammps,
     MmCif,
     Npy,
@@ -27,11 +28,12 @@ pub(crate) enum Format {
     /// Structures and trajectories of VASP.
     Vasp,
     Vtk,
+    VtkXml,
     Xyz,
 }
 
 /// The endings of names by which formats are told.
-pub(crate) const ENDINGS: [(&str, Format); 24] = [
+pub(crate) const ENDINGS: [(&str, Format); 27] = [
     ("csv", Format::Csv),
     ("tsv", Format::Csv),
     ("txt", Format::Text),
@@ -44,6 +46,7 @@ pub(crate) const ENDINGS: [(&str, Format); 24] = [
     ("dump", Format::Lammps),
     ("lammpstrj", Format::Lammps),
     ("gro", Format::Gro),
+    ("gsd", Format::Gsd),
     ("pdb", Format::Pdb),
     ("ent", Format::Pdb),
     ("pdbqt", Format::Pdb),
@@ -56,6 +59,8 @@ pub(crate) const ENDINGS: [(&str, Format); 24] = [
     ("contcar", Format::Vasp),
     ("xdatcar", Format::Vasp),
     ("vasp", Format::Vasp),
+    ("vtu", Format::VtkXml),
+    ("vtp", Format::VtkXml),
 ];
 
 impl Format {
@@ -110,6 +115,7 @@ impl Format {
         match self {
             Self::Csv | Self::Text | Self::Npy | Self::Npz => false,
             Self::Gro
+            | Self::Gsd
             | Self::Lammps
             | Self::MmCif
             | Self::Pdb
@@ -117,6 +123,7 @@ impl Format {
             | Self::Pqr
             | Self::Vasp
             | Self::Vtk
+            | Self::VtkXml
             | Self::Xyz => true,
         }
     }
@@ -124,7 +131,15 @@ impl Format {
     /// Says whether a table of this format may tell a cell.
     pub(crate) fn may_have_cell(self) -> bool {
         match self {
-            Self::Csv | Self::Text | Self::Npy | Self::Npz | Self::Ply | Self::Vtk => false,
+            // The boxes of GSD are not read.
+            Self::Csv
+            | Self::Text
+            | Self::Gsd
+            | Self::Npy
+            | Self::Npz
+            | Self::Ply
+            | Self::Vtk
+            | Self::VtkXml => false,
             Self::Gro
             | Self::Lammps
             | Self::MmCif
@@ -155,6 +170,7 @@ impl Format {
             Self::Csv => "CSV",
             Self::Text => "text",
             Self::Gro => "GRO",
+            Self::Gsd => "GSD",
             Self::Lammps => "a dump of LAMMPS",
             Self::MmCif => "mmCIF",
             Self::Npy => "NPY",
@@ -164,6 +180,7 @@ impl Format {
             Self::Pqr => "PQR",
             Self::Vasp => "a structure of VASP",
             Self::Vtk => "legacy VTK",
+            Self::VtkXml => "VTK XML",
             Self::Xyz => "XYZ",
         }
     }
@@ -183,6 +200,12 @@ fn by_magic(head: &[u8]) -> Option<Format> {
     }
     if magic(vtk::MAGIC) {
         return Some(Format::Vtk);
+    }
+    if gsd::is_like(head) {
+        return Some(Format::Gsd);
+    }
+    if vtk_xml::is_like(head) {
+        return Some(Format::VtkXml);
     }
     magic(b"ITEM:").then_some(Format::Lammps)
 }

@@ -13,7 +13,9 @@ use super::input::Input;
 use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
-use super::{delimited, gro, lammps, mmcif, npy, npz, pdb, ply, poscar, pqr, vtk, xyz};
+use super::{
+    delimited, gro, gsd, lammps, mmcif, npy, npz, pdb, ply, poscar, pqr, vtk, vtk_xml, xyz,
+};
 use crate::text::LocatedFault;
 
 /// The frames of a table, one after another.
@@ -29,6 +31,8 @@ pub(crate) struct Frames<'watch> {
     is_at_end: bool,
     /// The array of an NPY file.
     array: Option<npy::Array>,
+    /// The index of a GSD file, whose next frame is the number of lines that were passed.
+    gsd: Option<gsd::File>,
 }
 
 /// The place of a frame in a table.
@@ -66,9 +70,13 @@ impl<'watch> Frames<'watch> {
             return Err(LocatedFault::of_file(message).into());
         }
         let format = Format::of(path, input.head()).map_err(TableError::UnknownFormat)?;
-        if let (Format::Npz, Some(outer)) = (format, input.source().compression) {
+        if let (Format::Npz | Format::Gsd, Some(outer)) = (format, input.source().compression) {
+            let kind = match format {
+                Format::Npz => "NPZ archive",
+                _ => "GSD file",
+            };
             let message = format!(
-                "expected an uncompressed NPZ archive, found one in a {outer} file: decompress it once"
+                "expected an uncompressed {kind}, found one in a {outer} file: decompress it once"
             );
             return Err(LocatedFault::of_file(message).into());
         }
@@ -85,6 +93,7 @@ impl<'watch> Frames<'watch> {
             next: None,
             is_at_end: false,
             array: None,
+            gsd: None,
         })
     }
 
@@ -95,6 +104,7 @@ impl<'watch> Frames<'watch> {
             Format::Xyz
                 | Format::Lammps
                 | Format::Gro
+                | Format::Gsd
                 | Format::Pdb
                 | Format::Pqr
                 | Format::MmCif
@@ -129,9 +139,17 @@ impl<'watch> Frames<'watch> {
                 }
                 return Ok(rows);
             }
+            Format::Gsd => {
+                let file = Self::gsd(&mut self.gsd, input)?;
+                match gsd::read(input, file, request)? {
+                    Some(rows) => Ok(rows),
+                    None => return Ok(None),
+                }
+            }
             Format::Npz => npz::read(&self.path, request),
             Format::Ply => ply::read(input, request),
             Format::Vtk => vtk::read(input, request),
+            Format::VtkXml => vtk_xml::read(input, request),
             _ => {
                 let Some(header) = self.header()? else {
                     return Ok(None);
@@ -165,6 +183,13 @@ impl<'watch> Frames<'watch> {
             }
             return Ok(is_one);
         }
+        if self.format == Format::Gsd {
+            let input = &mut self.input;
+            let frames = Self::gsd(&mut self.gsd, input)?.frames;
+            let is_one = input.number < frames;
+            input.number += u64::from(is_one);
+            return Ok(is_one);
+        }
         let Some(header) = self.header()? else {
             return Ok(false);
         };
@@ -175,7 +200,7 @@ impl<'watch> Frames<'watch> {
 
     /// True of formats of simulations, in whose tables z usually points up.
     pub(crate) fn has_z_up(&self) -> bool {
-        matches!(self.format, Format::Lammps | Format::Gro)
+        matches!(self.format, Format::Lammps | Format::Gro | Format::Gsd)
     }
 
     /// True of a table that lists the atoms of a crystal's cell, after a frame was read.
@@ -193,7 +218,7 @@ impl<'watch> Frames<'watch> {
     pub(crate) fn is_plain_text(&self) -> bool {
         let is_binary = matches!(
             self.format,
-            Format::Npy | Format::Npz | Format::Ply | Format::Vtk
+            Format::Npy | Format::Npz | Format::Ply | Format::Vtk | Format::VtkXml | Format::Gsd
         );
         !is_binary && self.input.can_seek()
     }
@@ -252,6 +277,9 @@ impl<'watch> Frames<'watch> {
         if let Some(array) = &self.array {
             return array.tables > 1;
         }
+        if let Some(file) = &self.gsd {
+            return self.input.number < file.frames;
+        }
         if self.is_at_end {
             return false;
         }
@@ -299,6 +327,17 @@ impl<'watch> Frames<'watch> {
         self.input.skip_to(place.position.max(start), place.lines)
     }
 
+    /// The index of a GSD file, which is read once.
+    fn gsd<'a>(
+        index: &'a mut Option<gsd::File>,
+        input: &mut Input<'_>,
+    ) -> Result<&'a gsd::File, TableError> {
+        Ok(match index {
+            Some(file) => file,
+            None => index.insert(gsd::File::new(input)?),
+        })
+    }
+
     /// The next frame's header.
     fn header(&mut self) -> Result<Option<Header>, TableError> {
         if let Some(header) = self.next.take() {
@@ -315,7 +354,12 @@ impl<'watch> Frames<'watch> {
             Format::Pqr => pqr::header(input),
             Format::MmCif => mmcif::header(input, self.previous.as_ref()),
             Format::Vasp => poscar::header(input, self.previous.as_ref()),
-            Format::Npy | Format::Npz | Format::Ply | Format::Vtk => Ok(None),
+            Format::Npy
+            | Format::Npz
+            | Format::Ply
+            | Format::Vtk
+            | Format::VtkXml
+            | Format::Gsd => Ok(None),
         }
     }
 }

@@ -116,6 +116,20 @@ impl<'watch> Input<'watch> {
         Ok(self.start < self.end)
     }
 
+    /// Some bytes that come next; none at the end of the file.
+    pub(crate) fn ahead(&mut self) -> Result<&[u8], TableError> {
+        if self.start == self.end {
+            self.refill()?;
+        }
+        Ok(self.head())
+    }
+
+    /// Passes over bytes that come next.
+    pub(crate) fn pass(&mut self, bytes: usize) {
+        self.start += bytes;
+        self.position += bytes as u64;
+    }
+
     /// Says whether nothing ends the last line that was handed out.
     pub(crate) fn is_open_at_end(&self) -> bool {
         self.is_open_at_end

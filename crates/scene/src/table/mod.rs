@@ -5,6 +5,7 @@
 //! each column, `text` and `binary` read rows, and a file for each format reads what stands before them.
 //! `frames` reads the frames of a file one after another.
 
+mod array;
 mod atom_list;
 mod binary;
 mod cell;
@@ -25,6 +26,7 @@ mod form;
 mod format;
 mod frames;
 mod gro;
+mod gsd;
 mod guess;
 mod gzip;
 mod header;
@@ -53,6 +55,7 @@ mod text;
 mod time;
 mod unread_arrays;
 mod vtk;
+mod vtk_xml;
 mod xyz;
 mod zstandard;
 

@@ -14,7 +14,8 @@ use rawzip::{
     ZipEntry,
 };
 
-use super::binary::{self, Column};
+use super::array::Column;
+use super::binary;
 use super::columns::{MOST_COLUMNS, components};
 use super::compression::{REMEDY, check_count, most_bytes};
 use super::error::TableError;
@@ -282,7 +283,7 @@ fn add_columns<'a>(
             bytes: Cow::Borrowed(&array.bytes),
             offset,
             step,
-            start: 0,
+            start: Some(0),
         });
         before = before.saturating_add(size);
     }

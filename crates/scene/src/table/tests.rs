@@ -24,6 +24,7 @@ mod cut;
 mod elements;
 mod foreign;
 mod formats;
+mod gsd;
 mod hands;
 mod left_out;
 mod matrix;
@@ -33,6 +34,7 @@ mod ply;
 mod poscars;
 mod rows;
 mod vtk;
+mod vtk_xml;
 mod xyz;
 
 /// A folder that is gone after the test.

@@ -6,7 +6,8 @@
 use std::borrow::Cow;
 use std::io::{self, Read};
 
-use super::binary::{self, Column};
+use super::array::Column;
+use super::binary;
 use super::columns::{MOST_COLUMNS, components, marked};
 use super::error::TableError;
 use super::fields::{self, Division};
@@ -246,7 +247,7 @@ impl Array {
             bytes: Cow::Borrowed(&self.bytes),
             offset: component * size,
             step: self.size * size,
-            start: self.start,
+            start: Some(self.start),
         })
     }
 }

@@ -30,8 +30,8 @@ pub(crate) enum Place {
         row: u64,
         /// The column, from 1.
         column: usize,
-        /// The byte of the file at which the value starts, from 0.
-        byte: u64,
+        /// The byte of the file at which the value starts, from 0, where it stands there as it is.
+        byte: Option<u64>,
     },
     /// The file as a whole, or the header of a binary file.
     File,

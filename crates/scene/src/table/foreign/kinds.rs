@@ -18,7 +18,7 @@ const TRAJECTORY: &str =
 const MOLECULE: &str =
     "save the atoms as XYZ or PDB, with Open Babel (`obabel FILE -O atoms.xyz`) or ASE";
 const CELL: &str = "save it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO";
-const GRID: &str = "save the data as CSV or as legacy VTK, in ParaView by File > Save Data";
+const GRID: &str = "save the data as CSV, VTU or legacy VTK, in ParaView by File > Save Data";
 const COLUMNS: &str = "save the columns as NPY, NPZ or CSV, with Python (h5py, pandas or astropy)";
 const SHEET: &str = "save the sheet as CSV, with LibreOffice (`soffice --convert-to csv FILE`)";
 const POINTS: &str = "save the points as PLY or CSV, with CloudCompare or MeshLab";
@@ -79,15 +79,6 @@ pub(super) const KINDS: &[Foreign] = &[
         TRAJECTORY,
         &["traj"],
         &[(0, b"- of Ulm")],
-    ),
-    of(
-        "a trajectory of HOOMD (GSD)",
-        "save it as a LAMMPS dump or XYZ with OVITO, or its positions as NPY with the package gsd of Python",
-        &["gsd"],
-        &[
-            (0, &[0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65]),
-            (0, &[0x65, 0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65, 0xdf]),
-        ],
     ),
     of("a trajectory in HDF5 (H5MD)", TRAJECTORY, &["h5md"], &[]),
     of(
@@ -178,9 +169,13 @@ pub(super) const KINDS: &[Foreign] = &[
     of(
         "an XML file of VTK",
         GRID,
-        &[
-            "vtu", "vtp", "vti", "vts", "vtr", "vtm", "pvd", "pvtu", "pvtp",
-        ],
+        &["vti", "vts", "vtr", "vtm", "pvtu", "pvtp"],
+        &[],
+    ),
+    of(
+        "a collection of VTK files (PVD)",
+        "name the files that it lists as a numbered series, such as `file: \"run_####.vtu\"`",
+        &["pvd"],
         &[],
     ),
     of(

@@ -97,7 +97,10 @@ fn of_markup(lines: &[&[u8]]) -> Option<&'static str> {
         })
     };
     if has(b"<VTKFile") {
-        return Some("vtu");
+        return Some(match has(b"type=\"Collection\"") {
+            true => "pvd",
+            false => "vti",
+        });
     }
     if has(b"<!doctype html") || has(b"<html") {
         return Some("html");

@@ -16,11 +16,10 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
     let lammps = "LAMMPS data file\n\n2 atoms\n1 atom types\n0 1 xlo xhi\n\nAtoms # atomic\n\n1 1 0 0 0\n2 1 1 1 1\n";
     let cube = "title\nmade\n1 0.0 0.0 0.0\n2 1.0 0.0 0.0\n2 0.0 1.0 0.0\n2 0.0 0.0 1.0\n8 0.0 0.1 0.2 0.3\n1 2 3\n";
     let xsf = "# by hand\nCRYSTAL\nPRIMVEC\n1 0 0\n0 1 0\n0 0 1\nPRIMCOORD\n1 1\n8 0 0 0\n";
-    let vtu =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">\n<Points>1 2 3</Points>\n";
+    let vtu = "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\">\n<Points>1 2 3</Points>\n";
+    let pvd = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\"><Collection>\n";
     let html = "<!DOCTYPE html>\n<html><body>404</body></html>\n";
     let psf = "PSF CMAP\n\n 1 !NTITLE\n REMARKS\n\n 3 !NATOM\n1 A 1 ALA N NH3 -0.3 14.0 0\n";
-    let gsd = [0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65, 0, 0];
     for (names, bytes, kind, tool) in [
         (
             &["a.mol2", "a", "a.txt"][..],
@@ -71,10 +70,16 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
             "ASE",
         ),
         (
-            &["a.vtu", "a.csv", "a"],
+            &["a.vti", "a.vtu", "a.csv", "a"],
             vtu.as_bytes(),
             "an XML file of VTK",
             "ParaView",
+        ),
+        (
+            &["a.pvd", "a"],
+            pvd.as_bytes(),
+            "a collection of VTK files (PVD)",
+            "run_####.vtu",
         ),
         (
             &["a.csv", "a.pdb"],
@@ -87,12 +92,6 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
             psf.as_bytes(),
             "a topology without positions",
             "MDAnalysis",
-        ),
-        (
-            &["a.gsd", "a"],
-            &gsd,
-            "a trajectory of HOOMD (GSD)",
-            "OVITO",
         ),
         (
             &["a.mmtf"],

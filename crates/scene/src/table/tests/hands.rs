@@ -2,10 +2,11 @@
 
 use super::super::ENDINGS;
 use super::formats::npz;
+use super::gsd;
 use super::*;
 
 /// A corner and its neighbors along x, y and z, at distances 1, 2 and 3.
-const CORNERS: [[f64; 3]; 4] = [
+pub(super) const CORNERS: [[f64; 3]; 4] = [
     [5.0, 5.0, 5.0],
     [6.0, 5.0, 5.0],
     [5.0, 7.0, 5.0],
@@ -52,6 +53,7 @@ pub(super) fn table(ending: &str) -> (Vec<u8>, bool) {
                 lines(|id, [x, y, z]| format!("    1LIG      C{id:>5}{x:8.3}{y:8.3}{z:8.3}\n"));
             format!("t\n4\n{atoms} 9 9 9\n")
         }
+        "gsd" => return (gsd::file(&CORNERS, 1), true),
         "pdb" | "ent" | "pdbqt" => pdb,
         "pqr" => lines(|id, [x, y, z]| format!("ATOM {id} C LIG 1 {x} {y} {z} 0.5 1.7\n")),
         "cif" | "mmcif" | "pdbx" => format!("{loop_of_atoms}{words}#\n"),
@@ -61,6 +63,16 @@ pub(super) fn table(ending: &str) -> (Vec<u8>, bool) {
         "vtk" => format!(
             "# vtk DataFile Version 3.0\np\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n{words}"
         ),
+        "vtu" | "vtp" => {
+            let kind = match ending {
+                "vtu" => "UnstructuredGrid",
+                _ => "PolyData",
+            };
+            format!(
+                "<VTKFile type=\"{kind}\"><{kind}><Piece NumberOfPoints=\"4\"><Points><DataArray type=\"Float64\" \
+                 NumberOfComponents=\"3\" format=\"ascii\">\n{words}</DataArray></Points></Piece></{kind}></VTKFile>\n"
+            )
+        }
         other => panic!("no table of four spheres for `.{other}`: say whether it is mirrored"),
     };
     let is_plain = ["csv", "tsv", "txt", "dat"].contains(&ending);

@@ -3,9 +3,9 @@
 
 use super::super::{ENDINGS, Format};
 use super::compressed::{gzip, zstandard};
-use super::hands::table;
+use super::hands::{CORNERS, table};
 use super::*;
-use super::{atoms, cut};
+use super::{atoms, cut, gsd};
 
 /// The ways in which a format tells that its last frame is cut.
 enum Ends {
@@ -60,7 +60,12 @@ fn frames(ending: &str, format: Format) -> (Vec<u8>, usize, Ends) {
             let start = first.len();
             ((first + &second).into_bytes(), start, Ends::AtBytes)
         }
-        Format::Npz => (whole, 0, Ends::AtBytes),
+        Format::Gsd => {
+            let all = gsd::file(&CORNERS, 2);
+            let start = all.len() - 96;
+            (all, start, Ends::AtBytes)
+        }
+        Format::Npz | Format::VtkXml => (whole, 0, Ends::AtBytes),
         Format::Ply | Format::Vtk => (whole, 0, Ends::AtLines),
     }
 }
@@ -133,8 +138,8 @@ fn one_frame_is_a_step() {
 fn every_checksum_is_compared() {
     for (ending, format) in ENDINGS {
         let (bytes, _) = table(ending);
-        if format == Format::Npz {
-            // It has checksums of its own, which `checksums_of_archives_are_compared` looks at.
+        if matches!(format, Format::Npz | Format::Gsd) {
+            // They are not compressed. An NPZ has checksums of its own, which `checksums_of_archives_are_compared` looks at.
             continue;
         }
         // Of gzip a checksum and a size.
