@@ -44,6 +44,6 @@ pub use scene::{
     CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description, OrbitCamera,
     OrbitCenter, Scene, Setting, SettingError, Unturnable,
 };
-pub use table::written_time;
+pub use table::{COMPRESSED_ENDINGS, written_time};
 pub use text::harmless;
 pub use world::{ColumnContents, ColumnSummary, Progress, ScaleKind, StepKey};

@@ -80,7 +80,10 @@ pub(super) fn read_table(input: &Input<'_>) -> bool {
         ", unwrap: true, frames: All",
         ", color: Element, radii: VanDerWaals",
         ", radii: {\"O\": 1, \"MW\": 2}, palette: {\"H\": 0.5, \"1\": 1}, up: Z",
-        ", keep: [(\"element\", Is(\"O\"))], columns: (z: Constant(0), radius_law: Exponential(0.1))",
+        ", keep: [(\"element\", Is(\"O\"))], columns: (z: 0.0, radius_law: Exponential(0.1))",
+        ", columns: (radius: Power(column: \"q\", exponent: 0.5, offset: 1))",
+        ", time: \"id\"",
+        ", skip_lines: 1",
     ]);
     let text = format!(
         "(image: (width: 4, height: 4), lens: Fov(40), camera: Frame(), ambient: 1, \

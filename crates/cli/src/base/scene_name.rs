@@ -3,14 +3,13 @@
 use std::ffi::OsStr;
 use std::path::Path;
 
-/// The endings of compressed files.
-const COMPRESSED: [&str; 2] = ["gz", "zst"];
+use marbles_scene::COMPRESSED_ENDINGS;
 
 /// The name of the file at `path` without its extension, and without that of a compression.
 pub(crate) fn scene_name(path: &Path) -> &OsStr {
     let stem = path.file_stem().unwrap_or_default();
     let ending = path.extension().unwrap_or_default();
-    let is_compressed = COMPRESSED
+    let is_compressed = COMPRESSED_ENDINGS
         .iter()
         .any(|known| ending.eq_ignore_ascii_case(known));
     match is_compressed {
@@ -30,6 +29,7 @@ mod tests {
             ("water.xyz", "water"),
             ("water.xyz.gz", "water"),
             ("run.0005.csv.ZST", "run.0005"),
+            ("water.pdb.bz2", "water"),
             ("water", "water"),
             ("water.gz", "water"),
             ("..", ""),

@@ -41,7 +41,11 @@ pub(super) struct Contents {
 impl Contents {
     /// Reads the first frame of the table at `path`; of a table that cannot be read, nothing is known.
     pub(super) fn read(path: &Path) -> Self {
-        Self::try_read(path).unwrap_or_default()
+        // Loading the scene tells what is wrong in the table, and not that it has no radii.
+        Self::try_read(path).unwrap_or_else(|| Self {
+            radius: Some(1.0),
+            ..Self::default()
+        })
     }
 
     fn try_read(path: &Path) -> Option<Self> {

@@ -2,12 +2,12 @@
 
 use serde::Deserialize;
 
-use super::table::{ElementRadii, Keep, Palette};
+use super::table::{ElementRadii, Keep, Palette, RadiusColumn};
 use crate::table::{Coloring, Colormap, ColumnRef, Missing, Value, ValueRange};
 use crate::text::{Placed, present};
 use crate::values::{
-    Color, Coordinate, Every, Exponent, FileName, Flag, FrameRange, MaterialName, Point, Radius,
-    RadiusScale, Repeat, Scale, Speed, from_srgb,
+    Color, Coordinate, Every, Exponent, FileName, Flag, FrameRange, LineCount, MaterialName, Point,
+    Radius, RadiusScale, Repeat, Scale, Speed, from_srgb,
 };
 
 /// Spheres of a table; matte white without a material, and where the table puts them.
@@ -17,6 +17,10 @@ pub(crate) struct Cloud {
     pub(crate) file: Placed<FileName>,
     #[serde(default)]
     pub(crate) frames: Placed<TakenFrames>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) time: Option<Placed<ColumnRef>>,
+    #[serde(default)]
+    pub(crate) skip_lines: Placed<LineCount>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) steps: Option<Placed<FrameRange>>,
     #[serde(default)]
@@ -128,11 +132,11 @@ pub(crate) struct Columns {
     #[serde(default, deserialize_with = "present")]
     pub(crate) z: Option<Placed<ColumnRef>>,
     #[serde(default, deserialize_with = "present")]
-    pub(crate) radius: Option<Placed<ColumnRef>>,
+    pub(crate) radius: Option<Placed<RadiusColumn>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) radius_scale: Option<Placed<RadiusScale>>,
-    #[serde(default)]
-    pub(crate) radius_law: Placed<RadiusLaw>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) radius_law: Option<Placed<RadiusLaw>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) element: Option<Placed<ColumnRef>>,
     #[serde(default, deserialize_with = "present")]
@@ -140,11 +144,10 @@ pub(crate) struct Columns {
 }
 
 /// The way from the numbers of a column to radii.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum RadiusLaw {
     /// They are radii.
-    #[default]
     Linear,
     /// Radii are this power of them.
     Power(Placed<Exponent>),

@@ -17,7 +17,7 @@ pub(crate) use self::cloud::{
     Cloud, ColorScale, Columns, End, OTHERS_COLOR, Others, RadiusLaw, TakenFrames, Up,
 };
 pub(crate) use self::outline::{Outline, Width};
-pub(crate) use self::table::{ElementRadii, Keep, Palette, Test, Wanted};
+pub(crate) use self::table::{ElementRadii, Keep, Palette, RadiusColumn, Test, Wanted};
 use crate::text::{Placed, present};
 use crate::values::{
     Amplitude, Color, Coordinate, Exponent, FieldOfView, Flag, FocalLength, GrainSize, ImageSide,

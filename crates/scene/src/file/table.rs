@@ -8,8 +8,8 @@ use serde::{Deserialize, Deserializer};
 
 use crate::table::{ColumnRef, Missing, Radii, Value, ValueRange};
 use crate::text::{
-    Names, Placed, Read, Slice, note_failure, quoted, read_simple, read_structure, read_tuple,
-    refuse,
+    Names, Placed, Read, Slice, note_failure, optional, present, quoted, read_simple,
+    read_structure, read_tuple, refuse,
 };
 use crate::values::{Color, Coordinate, Percent, Radius, Step};
 
@@ -70,7 +70,21 @@ impl Default for ElementRadii {
     }
 }
 
-const COLUMN: &str = "the name of a column in quotation marks, or its number from 1";
+/// The source of radii.
+#[derive(Clone, Debug)]
+pub(crate) enum RadiusColumn {
+    Column(ColumnRef),
+    /// The radius is `offset + factor × number ^ exponent`.
+    Power {
+        column: ColumnRef,
+        factor: f64,
+        exponent: f64,
+        offset: f64,
+    },
+}
+
+const COLUMN: &str =
+    "the name of a column in quotation marks, its number from 1, or a constant such as `0.0`";
 
 /// Gives a value that is read from its text alone a way to be passed over in broken files.
 macro_rules! forms {
@@ -92,6 +106,7 @@ macro_rules! forms {
 
 forms! {
     ColumnRef: "column", COLUMN, column;
+    RadiusColumn: "column of radii", "a column in quotation marks, or `Power(column: …, factor: …, exponent: …, offset: …)`", radius;
     Value: "value", "a column in quotation marks, or `Length(…, …, …)` of three", value;
     ElementRadii: "radii", "radii: `VanDerWaals`, `Covalent`, or `{\"…\": …}` of elements by name", radii;
     Wanted: "wanted value", "a number, or a text in quotation marks", wanted;
@@ -107,12 +122,15 @@ fn column(slice: Slice<'_>) -> Option<ColumnRef> {
     if slice.text.starts_with('C') {
         let names = Names {
             noun: "column",
-            form: "a column in quotation marks, its number from 1, or `Constant(…)` for a position",
+            form: "a column in quotation marks, its number from 1, or `Constant(…)`",
         };
         let Form::Constant(number) = read_structure(slice, names)?;
         return number
             .get()
             .map(|Coordinate(number)| ColumnRef::Constant(number));
+    }
+    if is_constant(slice.text) {
+        return Coordinate::read(slice).map(|Coordinate(number)| ColumnRef::Constant(number));
     }
     if slice.text.starts_with(|c: char| c.is_ascii_digit()) {
         let number: u32 = read_simple(slice, COLUMN)?;
@@ -122,6 +140,59 @@ fn column(slice: Slice<'_>) -> Option<ColumnRef> {
         };
     }
     read_simple(slice, COLUMN).map(ColumnRef::Name)
+}
+
+/// Says whether a text is a number with a point or an exponent: the number of a column has neither.
+fn is_constant(text: &str) -> bool {
+    let is_number = text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+    is_number && text.contains(['.', 'e', 'E'])
+}
+
+fn radius(slice: Slice<'_>) -> Option<RadiusColumn> {
+    #[derive(Deserialize)]
+    enum Form {
+        Power {
+            column: Placed<ColumnRef>,
+            #[serde(default, deserialize_with = "present")]
+            factor: Option<Placed<Coordinate>>,
+            #[serde(default, deserialize_with = "present")]
+            exponent: Option<Placed<Coordinate>>,
+            #[serde(default, deserialize_with = "present")]
+            offset: Option<Placed<Coordinate>>,
+        },
+    }
+    if !slice.text.starts_with('P') {
+        let column = column(slice)?;
+        return match column {
+            ColumnRef::Constant(number) if number <= 0.0 => slice.refuse("a radius greater than 0"),
+            column => Some(RadiusColumn::Column(column)),
+        };
+    }
+    let names = Names {
+        noun: "column of radii",
+        form: "`Power(column: …, factor: …, exponent: …, offset: …)`",
+    };
+    let Form::Power {
+        column,
+        factor,
+        exponent,
+        offset,
+    } = read_structure(slice, names)?;
+    if let Some(ColumnRef::Constant(_)) = column.value {
+        let expected = "the name of a column in quotation marks, or its number from 1";
+        return refuse(
+            column.place,
+            format!("expected {expected}, found a constant"),
+        );
+    }
+    let number = |field| optional(field, |Coordinate(number)| Some(*number));
+    let (factor, exponent, offset) = (number(&factor)?, number(&exponent)?, number(&offset)?);
+    Some(RadiusColumn::Power {
+        column: column.value?,
+        factor: factor.unwrap_or(1.0),
+        exponent: exponent.unwrap_or(1.0),
+        offset: offset.unwrap_or(0.0),
+    })
 }
 
 fn value(slice: Slice<'_>) -> Option<Value> {

@@ -336,7 +336,7 @@ impl Block<'_> {
                     _ => {}
                 }
                 let number = value.kind.decode(bytes).unwrap_or(f64::NAN);
-                if let Some(expected) = value.slot.refusal(number, plan.allowed) {
+                if let Some(expected) = plan.refusal(value.slot, number) {
                     let expected = plan.expected(value.column, expected);
                     return Err(self.fault(row, value, &expected, number.to_string()).into());
                 }

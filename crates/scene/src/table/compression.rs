@@ -1,4 +1,4 @@
-//! Files compressed by gzip or Zstandard: how they are told, and how much they may hold.
+//! Files compressed by gzip, Zstandard, bzip2 or xz: how they are told, and how much they may hold.
 
 use std::fmt;
 use std::fs::File;
@@ -15,7 +15,9 @@ pub(super) const ZSTANDARD_SKIPPABLE: RangeInclusive<u32> = 0x184d_2a50..=0x184d
 /// The ways in which files are compressed.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Compression {
+    Bzip2,
     Gzip,
+    Xz,
     Zstandard,
 }
 
@@ -67,7 +69,9 @@ pub(super) const REMEDY: &str = "decompress it if you want to read it anyway";
 impl fmt::Display for Compression {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
+            Self::Bzip2 => "bzip2",
             Self::Gzip => "gzip",
+            Self::Xz => "xz",
             Self::Zstandard => "Zstandard",
         })
     }
@@ -77,7 +81,7 @@ impl Compression {
     /// The way in which a file is compressed, by its first bytes; the file is at its start afterwards.
     pub(crate) fn of(file: &mut File) -> io::Result<Option<Self>> {
         let mut start = Vec::new();
-        file.by_ref().take(4).read_to_end(&mut start)?;
+        file.by_ref().take(HEAD).read_to_end(&mut start)?;
         file.seek(SeekFrom::Start(0))?;
         Ok(Self::of_bytes(&start))
     }
@@ -86,6 +90,8 @@ impl Compression {
     pub(crate) fn of_bytes(bytes: &[u8]) -> Option<Self> {
         match bytes {
             [0x1f, 0x8b, ..] => Some(Self::Gzip),
+            [0xfd, b'7', b'z', b'X', b'Z', 0, ..] => Some(Self::Xz),
+            [b'B', b'Z', b'h', b'1'..=b'9', rest @ ..] if is_of_bzip2(rest) => Some(Self::Bzip2),
             _ => {
                 let magic = u32::from_le_bytes(*bytes.first_chunk()?);
                 let is_frame = magic == ZSTANDARD_FRAME || ZSTANDARD_SKIPPABLE.contains(&magic);
@@ -93,7 +99,27 @@ impl Compression {
             }
         }
     }
-
-    /// The endings of names of files that are compressed so.
-    pub(crate) const ENDINGS: [&str; 2] = ["gz", "zst"];
 }
+
+/// The bytes that tell how a file is compressed.
+const HEAD: u64 = 10;
+
+/// Says whether bytes behind `BZh` and the level begin a block of bzip2, or end its stream.
+fn is_of_bzip2(bytes: &[u8]) -> bool {
+    /// The digits of π, and of its square root.
+    const MARKS: [[u8; 6]; 2] = [
+        [0x31, 0x41, 0x59, 0x26, 0x53, 0x59],
+        [0x17, 0x72, 0x45, 0x38, 0x50, 0x90],
+    ];
+    MARKS
+        .iter()
+        .any(|mark| bytes.iter().zip(mark).all(|(byte, wanted)| byte == wanted))
+}
+
+/// The endings of the names of compressed tables.
+///
+/// # Example
+/// ```
+/// assert!(marbles_scene::COMPRESSED_ENDINGS.contains(&"gz"));
+/// ```
+pub const COMPRESSED_ENDINGS: [&str; 4] = ["gz", "zst", "bz2", "xz"];

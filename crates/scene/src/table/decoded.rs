@@ -9,7 +9,7 @@ use std::thread;
 
 use super::compression::Compression;
 use super::packed::{Blocks, Packed};
-use super::{gzip, zstandard};
+use super::{bzip2, gzip, xz, zstandard};
 
 /// Blocks that wait for the reader.
 const WAITING: usize = 4;
@@ -33,7 +33,9 @@ impl Decoded {
         let mut sent = Blocks::new(sender);
         let decode = move || {
             let end = match compression {
+                Compression::Bzip2 => bzip2::decode(&mut packed, &mut sent),
                 Compression::Gzip => gzip::decode(&mut packed, &mut sent),
+                Compression::Xz => xz::decode(&mut packed, &mut sent),
                 Compression::Zstandard => zstandard::decode(&mut packed, &mut sent),
             };
             sent.finish(end);

@@ -10,6 +10,7 @@ use super::form::{Form, LineKind, of_table};
 use super::header::Header;
 use super::input::Input;
 use super::number::{is_missing, parse};
+use super::time;
 use crate::text::LocatedFault;
 
 /// The header of a table whose separators the ending of its name may tell.
@@ -117,9 +118,11 @@ fn division(line: &[u8], is_csv: bool) -> Division {
     }
 }
 
-/// Says whether a field is a number, or tells that there is none.
+/// Says whether a field is a number or a time, or tells that there is none.
 fn is_number(field: &[u8], division: &Division) -> bool {
-    parse(field, *division == Division::Between(b';')).is_some() || is_missing(field)
+    parse(field, *division == Division::Between(b';')).is_some()
+        || is_missing(field)
+        || time::parse(field).is_some()
 }
 
 /// Says whether fields are the numbers of their columns from 0 on, which some programs write in place of names.

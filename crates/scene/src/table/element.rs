@@ -109,6 +109,11 @@ pub(crate) fn of_plain_symbol(text: &[u8]) -> Option<u8> {
     (!ISOTOPES.iter().any(is_isotope)).then_some(number)
 }
 
+/// The atomic number of a symbol in its usual case: `CA` is not calcium.
+pub(crate) fn of_exact_symbol(text: &[u8]) -> Option<u8> {
+    of_symbol(text).filter(|number| symbol(*number).is_some_and(|symbol| symbol.as_bytes() == text))
+}
+
 /// The atomic number of a label that begins with a symbol: `C12`, `Fe2+`, `2H`; or of a symbol or a number.
 pub(crate) fn of_label(text: &[u8]) -> Option<u8> {
     number(text).or_else(|| of_lettered_label(text))

@@ -12,6 +12,10 @@ pub(crate) enum Division {
     QuotedWords,
     /// Between such bytes; quotation marks may stand around fields.
     Between(u8),
+    /// As words, but the one at this place comes twice, since it tells the element, too.
+    Repeated(usize),
+    /// As quoted words, behind so many bytes.
+    Behind(usize),
     /// In these columns of characters.
     Fixed(Arc<[Range<usize>]>),
     /// Between spaces, where a chain may be left out before the number of the residue; the name comes once more at the
@@ -62,6 +66,11 @@ impl<'line> Fields<'line> {
             Division::Between(separator) => self.next_between(*separator),
             Division::QuotedWords => self.next_quoted_word(),
             Division::Fixed(places) => self.next_place(places),
+            Division::Repeated(place) => self.next_repeated(*place),
+            Division::Behind(bytes) => {
+                self.at = self.at.max(*bytes).min(self.line.len());
+                self.next_quoted_word()
+            }
             Division::Pqr => self.next_of_pqr(),
             Division::BehindNothing => match std::mem::replace(&mut self.count, 1) {
                 0 => Some(0..0),
@@ -118,6 +127,15 @@ impl<'line> Fields<'line> {
         let end = end.unwrap_or(self.line.len());
         self.at = (end + 1).min(self.line.len());
         Some(start + 1..end)
+    }
+
+    fn next_repeated(&mut self, place: usize) -> Option<Range<usize>> {
+        let word = self.next_word()?;
+        if self.count == place {
+            self.at = word.start;
+        }
+        self.count += 1;
+        Some(word)
     }
 
     fn next_of_pqr(&mut self) -> Option<Range<usize>> {

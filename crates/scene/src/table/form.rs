@@ -11,8 +11,8 @@ use super::fields::Division;
 #[derive(Clone, Debug)]
 pub(crate) struct Form {
     pub(crate) division: Division,
-    /// Lines may have more fields than there are columns.
-    pub(crate) may_be_longer: bool,
+    /// What may stand behind the columns.
+    pub(crate) rest: Rest,
     /// Numbers have commas where others have points.
     pub(crate) has_decimal_commas: bool,
     /// The kind of a line, used if the header does not tell how many rows follow.
@@ -27,8 +27,28 @@ pub(crate) struct Form {
     pub(crate) coordinates: Range<usize>,
     /// The part of a row whose fields are not where the form has them, and what was expected there.
     pub(crate) check: Check,
+    /// The elements of types of atoms that the file names.
+    pub(crate) types: Arc<[AtomType]>,
     /// Rows end before one that has something else in this column.
     pub(crate) same: Option<(usize, Vec<u8>)>,
+}
+
+/// What may stand behind the columns of a line.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Rest {
+    Nothing,
+    /// A comment behind `#`.
+    Comment,
+    Anything,
+}
+
+/// A type of atoms that are an element.
+#[derive(Clone, Debug)]
+pub(crate) struct AtomType {
+    /// What atoms have in the place of their type.
+    pub(crate) label: Box<[u8]>,
+    /// The atomic number.
+    pub(crate) element: u8,
 }
 
 /// The atom that rows are.
@@ -40,7 +60,7 @@ pub(crate) struct FixedAtom {
 }
 
 /// The atomic number that a line tells in a field.
-pub(crate) type ElementOf = fn(&[u8], Range<usize>) -> Option<u8>;
+pub(crate) type ElementOf = fn(&Form, &[u8], Range<usize>) -> Option<u8>;
 
 /// The part of a row that is not as the form has it, and what was expected.
 pub(crate) type Check = fn(&Form, &[u8]) -> Option<(Range<usize>, &'static str)>;
@@ -60,14 +80,15 @@ impl Form {
     pub(crate) fn new(division: Division) -> Self {
         Self {
             division,
-            may_be_longer: false,
+            rest: Rest::Nothing,
             has_decimal_commas: false,
             kind: of_table,
-            element: |line, field| element::of_label(&line[field]),
+            element: |_, line, field| element::of_label(&line[field]),
             atom: None,
             name: 0..0,
             coordinates: 0..0,
             check: |_, _| None,
+            types: Arc::new([]),
             same: None,
         }
     }
@@ -81,7 +102,7 @@ impl Form {
                 label: &atom.label,
             };
         }
-        let number = (self.element)(line, field.clone()).unwrap_or(0);
+        let number = (self.element)(self, line, field.clone()).unwrap_or(0);
         let label = match line[field.clone()].is_empty() {
             true => line.get(self.name.clone()).unwrap_or_default(),
             false => &line[field],

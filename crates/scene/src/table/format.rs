@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::compression::Compression;
+use super::compression::COMPRESSED_ENDINGS;
 use super::fields::{self, Division};
 use super::foreign::{self, Foreign};
 use super::form::{self, LineKind};
 use super::input::without_return;
 use super::number::parse;
-use super::{gsd, npy, npz, poscar, pqr, vtk, vtk_xml};
+use super::{gsd, lammps_data, mol2, npy, npz, poscar, pqr, sdf, vtk, vtk_xml};
 
 /// The format of a table.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -19,12 +19,17 @@ pub(crate) enum Format {
     Gro,
     Gsd,
     Lammps,
+    /// What LAMMPS begins with, not what it writes on its way.
+    LammpsData,
     MmCif,
+    Mol2,
     Npy,
     Npz,
     Pdb,
     Ply,
     Pqr,
+    /// Molecules of one file, one of them or several.
+    Sdf,
     /// Structures and trajectories of VASP.
     Vasp,
     Vtk,
@@ -33,7 +38,7 @@ pub(crate) enum Format {
 }
 
 /// The endings of names by which formats are told.
-pub(crate) const ENDINGS: [(&str, Format); 27] = [
+pub(crate) const ENDINGS: [(&str, Format); 34] = [
     ("csv", Format::Csv),
     ("tsv", Format::Csv),
     ("txt", Format::Text),
@@ -54,6 +59,13 @@ pub(crate) const ENDINGS: [(&str, Format); 27] = [
     ("cif", Format::MmCif),
     ("mmcif", Format::MmCif),
     ("pdbx", Format::MmCif),
+    ("mol2", Format::Mol2),
+    ("sdf", Format::Sdf),
+    ("sd", Format::Sdf),
+    ("mol", Format::Sdf),
+    ("mdl", Format::Sdf),
+    ("data", Format::LammpsData),
+    ("lmp", Format::LammpsData),
     ("vtk", Format::Vtk),
     ("poscar", Format::Vasp),
     ("contcar", Format::Vasp),
@@ -84,8 +96,13 @@ impl Format {
             Format::Pdb if pqr::is_like(head) => Format::Pqr,
             format => format,
         });
-        // What others call a dump may be a table of any kind.
-        let by_name = by_name.filter(|format| *format != Self::Lammps || head.is_empty());
+        // What others call a dump, or data, may be a table of any kind.
+        let by_name = by_name.filter(|format| match format {
+            Self::Lammps => head.is_empty(),
+            Self::LammpsData => head.is_empty() || !is_like_a_table(head),
+            Self::Sdf => by_contents(head) != Some(Self::Xyz),
+            _ => true,
+        });
         if let Some(format) = by_name {
             return Ok(format);
         }
@@ -100,6 +117,11 @@ impl Format {
             }
             (_, found) => found.ok_or(None),
         }
+    }
+
+    /// Says whether a file that begins so has the marks of a format.
+    pub(crate) fn is_marked(head: &[u8]) -> bool {
+        by_magic(head).is_some()
     }
 
     /// The format that the ending of a name tells.
@@ -117,10 +139,13 @@ impl Format {
             Self::Gro
             | Self::Gsd
             | Self::Lammps
+            | Self::LammpsData
             | Self::MmCif
+            | Self::Mol2
             | Self::Pdb
             | Self::Ply
             | Self::Pqr
+            | Self::Sdf
             | Self::Vasp
             | Self::Vtk
             | Self::VtkXml
@@ -131,13 +156,16 @@ impl Format {
     /// Says whether a table of this format may tell a cell.
     pub(crate) fn may_have_cell(self) -> bool {
         match self {
-            // The boxes of GSD are not read.
+            // The boxes of GSD and of data files are not read.
             Self::Csv
             | Self::Text
             | Self::Gsd
+            | Self::LammpsData
+            | Self::Mol2
             | Self::Npy
             | Self::Npz
             | Self::Ply
+            | Self::Sdf
             | Self::Vtk
             | Self::VtkXml => false,
             Self::Gro
@@ -172,12 +200,15 @@ impl Format {
             Self::Gro => "GRO",
             Self::Gsd => "GSD",
             Self::Lammps => "a dump of LAMMPS",
+            Self::LammpsData => "a data file of LAMMPS",
             Self::MmCif => "mmCIF",
+            Self::Mol2 => "MOL2",
             Self::Npy => "NPY",
             Self::Npz => "NPZ",
             Self::Pdb => "PDB",
             Self::Ply => "PLY",
             Self::Pqr => "PQR",
+            Self::Sdf => "SDF",
             Self::Vasp => "a structure of VASP",
             Self::Vtk => "legacy VTK",
             Self::VtkXml => "VTK XML",
@@ -186,7 +217,7 @@ impl Format {
     }
 }
 
-/// The format of a file that begins with the mark of one.
+/// The format of a file that begins with the marks of one.
 fn by_magic(head: &[u8]) -> Option<Format> {
     let magic = |magic: &[u8]| head.starts_with(magic);
     if magic(npy::MAGIC) {
@@ -207,7 +238,16 @@ fn by_magic(head: &[u8]) -> Option<Format> {
     if vtk_xml::is_like(head) {
         return Some(Format::VtkXml);
     }
-    magic(b"ITEM:").then_some(Format::Lammps)
+    if magic(b"ITEM:") {
+        return Some(Format::Lammps);
+    }
+    if mol2::is_like(head) {
+        return Some(Format::Mol2);
+    }
+    if sdf::is_like(head) {
+        return Some(Format::Sdf);
+    }
+    lammps_data::is_like(head).then_some(Format::LammpsData)
 }
 
 /// The ending of a name, in lower case, without that of its compression; the name itself where it has none.
@@ -218,7 +258,7 @@ fn ending(path: &Path) -> String {
         ending.unwrap_or_default().to_ascii_lowercase()
     };
     match of(path) {
-        ending if Compression::ENDINGS.contains(&&*ending) => {
+        ending if COMPRESSED_ENDINGS.contains(&&*ending) => {
             of(Path::new(path.file_stem().unwrap_or_default()))
         }
         ending => ending,

@@ -14,7 +14,8 @@ use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::{
-    delimited, gro, gsd, lammps, mmcif, npy, npz, pdb, ply, poscar, pqr, vtk, vtk_xml, xyz,
+    delimited, gro, gsd, lammps, lammps_data, mmcif, mol2, npy, npz, pdb, ply, poscar, pqr, sdf,
+    vtk, vtk_xml, xyz,
 };
 use crate::text::LocatedFault;
 
@@ -60,7 +61,24 @@ impl<'watch> Frames<'watch> {
         path: &Path,
         watch: &'watch (dyn Fn(u64, u64) + Sync),
     ) -> Result<Self, TableError> {
-        let input = Input::new(Source::open(path, watch)?)?;
+        Self::open_after(path, 0, watch)
+    }
+
+    /// Opens the table at `path`, which begins behind so many lines, if it is one of plain text.
+    pub(crate) fn open_after(
+        path: &Path,
+        lines: u64,
+        watch: &'watch (dyn Fn(u64, u64) + Sync),
+    ) -> Result<Self, TableError> {
+        let mut input = Input::new(Source::open(path, watch)?)?;
+        let skipped = match lines {
+            0 => 0,
+            lines => input.skip_lines(lines)?,
+        };
+        if skipped < lines {
+            let expected = format!("a table behind {lines} lines (`skip_lines: {lines}`)");
+            return Err(LocatedFault::at_end(skipped + 1, &expected).into());
+        }
         if let Some(outer) = input.source().compression
             && let Some(inner) = Compression::of_bytes(input.head())
         {
@@ -80,7 +98,11 @@ impl<'watch> Frames<'watch> {
             );
             return Err(LocatedFault::of_file(message).into());
         }
-        let mut input = input;
+        if lines > 0 && !matches!(format, Format::Csv | Format::Text) {
+            let name = format.name();
+            let message = format!("expected a table of plain text for `skip_lines`, found {name}");
+            return Err(LocatedFault::of_file(message).into());
+        }
         if format == Format::Pqr && Format::by_ending(path) == Some(Format::Pdb) {
             let guess = "its columns are those of a PQR file, not of a PDB file: it is read as PQR";
             input.leave_out(LocatedFault::of_file(guess));
@@ -108,7 +130,9 @@ impl<'watch> Frames<'watch> {
                 | Format::Pdb
                 | Format::Pqr
                 | Format::MmCif
+                | Format::Mol2
                 | Format::Npy
+                | Format::Sdf
                 | Format::Vasp
         )
     }
@@ -200,7 +224,10 @@ impl<'watch> Frames<'watch> {
 
     /// True of formats of simulations, in whose tables z usually points up.
     pub(crate) fn has_z_up(&self) -> bool {
-        matches!(self.format, Format::Lammps | Format::Gro | Format::Gsd)
+        matches!(
+            self.format,
+            Format::Lammps | Format::LammpsData | Format::Gro | Format::Gsd
+        )
     }
 
     /// True of a table that lists the atoms of a crystal's cell, after a frame was read.
@@ -234,7 +261,7 @@ impl<'watch> Frames<'watch> {
         if input.is_open_at_end()
             && matches!(
                 self.format,
-                Format::Xyz | Format::Lammps | Format::Gro | Format::Vasp
+                Format::Xyz | Format::Lammps | Format::Gro | Format::Mol2 | Format::Vasp
             )
         {
             let doubt = "the file ends within this line: its last number may have been cut off";
@@ -349,6 +376,9 @@ impl<'watch> Frames<'watch> {
             Format::Text => delimited::header(input, false).map(Some),
             Format::Xyz => xyz::header(input, self.previous.as_ref()),
             Format::Lammps => lammps::header(input),
+            Format::LammpsData => lammps_data::header(input).map(Some),
+            Format::Mol2 => mol2::header(input),
+            Format::Sdf => sdf::header(input),
             Format::Gro => gro::header(input),
             Format::Pdb => pdb::header(input, self.previous.as_ref()),
             Format::Pqr => pqr::header(input),

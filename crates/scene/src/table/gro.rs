@@ -66,7 +66,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     places.extend((0..6).map(|column| 20 + column * width..20 + (column + 1) * width));
     places.push(10..15);
     let form = Form {
-        element: |line, field| {
+        element: |_, line, field| {
             let residue = line.get(5..10).unwrap_or_default();
             residue::of_atom(&line[field], residue)
         },

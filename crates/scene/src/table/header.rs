@@ -186,7 +186,8 @@ impl Header {
         const ROWS: usize = 1000;
         let column = plan.element_column;
         let column = column.filter(|_| plan.name_of(Slot::Element).is_some());
-        let column = column.filter(|_| request.columns.element.is_none() && self.guess.is_none());
+        let is_open = request.columns.element.is_none() && self.guess.is_none();
+        let column = column.filter(|_| is_open && self.form.types.is_empty());
         let (Some(column), Some(first)) = (column, input.peek()?.map(<[u8]>::to_vec)) else {
             return Ok(None);
         };

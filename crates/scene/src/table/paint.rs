@@ -1,6 +1,6 @@
 //! The colors of a table's spheres.
 
-use std::collections::{HashMap, TryReserveError};
+use std::collections::{HashMap, HashSet, TryReserveError};
 
 use super::request::Coloring;
 
@@ -17,6 +17,34 @@ pub(crate) enum Paint {
     Values(Vec<f64>),
     /// Those of categories.
     Categories(Categories),
+    /// None: these are the different numbers of a column.
+    Distinct(Distinct),
+}
+
+/// Different numbers, none of them NaN.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Distinct {
+    /// Their bits, each number once.
+    bits: HashSet<u64>,
+    last: Option<f64>,
+}
+
+impl Distinct {
+    pub(crate) fn add(&mut self, number: f64) {
+        // The same number usually comes many times in a row.
+        if self.last != Some(number) {
+            self.last = Some(number);
+            // Both zeros are one number.
+            self.bits.insert((number + 0.0).to_bits());
+        }
+    }
+
+    /// The numbers in rising order.
+    pub(crate) fn sorted(&self) -> Vec<f64> {
+        let mut numbers: Vec<f64> = self.bits.iter().map(|bits| f64::from_bits(*bits)).collect();
+        numbers.sort_unstable_by(f64::total_cmp);
+        numbers
+    }
 }
 
 /// The categories of spheres, by their indices among the names.
@@ -67,13 +95,14 @@ impl Paint {
             Coloring::Element => Self::Elements(Vec::new()),
             Coloring::Value => Self::Values(Vec::new()),
             Coloring::Category => Self::Categories(Categories::default()),
+            Coloring::Distinct => Self::Distinct(Distinct::default()),
         }
     }
 
     /// Makes room for so many more spheres.
     pub(crate) fn reserve(&mut self, more: usize) -> Result<(), TryReserveError> {
         match self {
-            Self::Material => Ok(()),
+            Self::Material | Self::Distinct(_) => Ok(()),
             Self::Colors(colors) => colors.try_reserve_exact(more),
             Self::Elements(numbers) => numbers.try_reserve_exact(more),
             Self::Values(values) => values.try_reserve_exact(more),
@@ -84,7 +113,7 @@ impl Paint {
     /// Removes the colors of so many spheres at the start.
     pub(super) fn remove_first(&mut self, count: usize) {
         match self {
-            Self::Material => {}
+            Self::Material | Self::Distinct(_) => {}
             Self::Colors(colors) => drop(colors.drain(..count)),
             Self::Elements(numbers) => drop(numbers.drain(..count)),
             Self::Values(values) => drop(values.drain(..count)),
@@ -99,6 +128,7 @@ impl Paint {
             (Self::Elements(own), Self::Elements(mut others)) => own.append(&mut others),
             (Self::Values(own), Self::Values(mut others)) => own.append(&mut others),
             (Self::Categories(own), Self::Categories(others)) => return own.append(others),
+            (Self::Distinct(own), Self::Distinct(others)) => own.bits.extend(others.bits),
             _ => {}
         }
         false

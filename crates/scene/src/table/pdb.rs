@@ -57,8 +57,8 @@ pub(crate) fn header(
     let form = Form {
         kind,
         element: match is_aligned {
-            true => |line, field| element(line, field, residue::of_aligned_atom),
-            false => |line, field| element(line, field, residue::of_atom),
+            true => |_, line, field| element(line, field, residue::of_aligned_atom),
+            false => |_, line, field| element(line, field, residue::of_atom),
         },
         name: 12..16,
         coordinates: 30..54,

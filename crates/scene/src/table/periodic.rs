@@ -185,7 +185,7 @@ impl Paint {
             }
         }
         match self {
-            Self::Material => {}
+            Self::Material | Self::Distinct(_) => {}
             Self::Colors(colors) => more(colors, places),
             Self::Elements(numbers) => more(numbers, places),
             Self::Values(values) => more(values, places),

@@ -11,7 +11,7 @@ use super::cell::{Cell, numbers};
 use super::element;
 use super::error::TableError;
 use super::fields::{self, Division};
-use super::form::{FixedAtom, Form};
+use super::form::{FixedAtom, Form, Rest};
 use super::header::{Header, Species};
 use super::input::Input;
 use super::number::parse;
@@ -103,7 +103,7 @@ fn first(input: &mut Input<'_>) -> Result<Header, TableError> {
     }
     let form = Form {
         // Comments and symbols of elements may follow.
-        may_be_longer: true,
+        rest: Rest::Anything,
         ..Form::new(Division::BehindNothing)
     };
     let texts = (0..names.len()).map(|column| !(1..4).contains(&column));

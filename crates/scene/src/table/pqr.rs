@@ -94,7 +94,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     };
     let form = Form {
         kind,
-        element: |line, field| {
+        element: |_, line, field| {
             let words = fields::all(line, &Division::Pqr);
             let residue = words.get(3).copied().unwrap_or_default();
             residue::of_atom(&line[field], residue)

@@ -101,8 +101,12 @@ pub(crate) enum RadiusLaw {
     /// They are radii.
     #[default]
     Linear,
-    /// Radii are this power of them: 1/2 of areas, 1/3 of volumes.
-    Power(f64),
+    /// Radii are `offset + factor × number ^ exponent`, with the exponent 1/2 for areas, 1/3 for volumes.
+    Power {
+        factor: f64,
+        exponent: f64,
+        offset: f64,
+    },
     /// Radii are 10 to the power of this many of them, as of magnitudes.
     Exponential(f64),
 }
@@ -113,7 +117,11 @@ impl RadiusLaw {
     pub(crate) fn of(self, number: f64) -> f64 {
         match self {
             Self::Linear => number,
-            Self::Power(power) => libm::pow(number, power),
+            Self::Power {
+                factor,
+                exponent,
+                offset,
+            } => offset + factor * libm::pow(number, exponent),
             Self::Exponential(factor) => libm::pow(10.0, factor * number),
         }
     }
@@ -170,4 +178,7 @@ pub(crate) enum Coloring {
     Value,
     /// A column of names or numbers, each with a color of its own.
     Category,
+    /// None: only the different numbers of a column are wanted, and no spheres.
+    #[serde(skip)]
+    Distinct,
 }

@@ -113,6 +113,10 @@ impl Rows {
         if plan.hides_missing && value.is_nan() {
             return Ok(Pushed::AsItIs);
         }
+        if let Paint::Distinct(numbers) = &mut self.paint {
+            numbers.add(value);
+            return Ok(Pushed::AsItIs);
+        }
         let mut pushed = Pushed::AsItIs;
         let radius = match plan.radius {
             RadiusSource::Fixed(radius) => radius,
@@ -145,7 +149,7 @@ impl Rows {
         }
         let sphere = Sphere::new(center, radius).map_err(|_| "a finite center and radius")?;
         match &mut self.paint {
-            Paint::Material => {}
+            Paint::Material | Paint::Distinct(_) => {}
             Paint::Colors(colors) => {
                 let color = [Slot::Red, Slot::Green, Slot::Blue].map(number);
                 colors.push(color.map(|channel| plan.channel(channel)));

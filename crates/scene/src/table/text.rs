@@ -8,14 +8,14 @@ use super::columns::{Plan, Slot, Test, Uses};
 use super::elements::Atom;
 use super::error::TableError;
 use super::fields::Fields;
-use super::form::{Form, LineKind};
+use super::form::{Form, LineKind, Rest};
 use super::input::{Input, without_return};
 use super::number::{is_missing, parse};
 use super::remarks::place_in_line;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows};
 use super::time;
-use crate::text::LocatedFault;
+use crate::text::{LocatedFault, Place};
 
 /// About how many bytes of text are one piece of work.
 const PIECE: usize = 1 << 18;
@@ -100,10 +100,27 @@ pub(crate) fn read_count(
     count: u64,
     noun: &str,
 ) -> Result<Rows, TableError> {
-    let rows = read(input, plan, form, Some(count))?;
+    let rows = read(input, plan, form, Some(count));
+    let rows = rows.map_err(|error| ended_early(error, form, count, noun))?;
     match rows.read < count {
         true => Err(too_few(input.number, rows.read, count, noun).into()),
         false => Ok(rows),
+    }
+}
+
+/// The error of a line among `count` rows, which says what ends them if the line does.
+#[cold]
+fn ended_early(error: TableError, form: &Form, count: u64, noun: &str) -> TableError {
+    match error {
+        TableError::Fault(LocatedFault {
+            place: Place::Text { line, text, .. },
+            ..
+        }) if (form.kind)(text.as_bytes()) == LineKind::End => {
+            let expected = format!("{count} {noun}");
+            let text = text.as_bytes();
+            LocatedFault::expected(line, text, 0..text.len(), &expected).into()
+        }
+        error => error,
     }
 }
 
@@ -317,15 +334,16 @@ pub(super) fn read_line(
                 slot => {
                     let mut value = parse(text, form.has_decimal_commas);
                     let is_value = matches!(slot, Slot::Value | Slot::Vector(_));
-                    if value.is_none() && *slot == Slot::Value {
+                    let may_be_time = is_value || matches!(slot, Slot::X | Slot::Y | Slot::Z);
+                    if value.is_none() && may_be_time {
                         value = time::parse(text);
-                        rows.has_times |= value.is_some();
+                        rows.has_times |= value.is_some() && *slot == Slot::Value;
                     }
                     if value.is_none() && is_value && plan.allowed.may_miss && is_missing(text) {
                         value = Some(f64::NAN);
                     }
                     let refusal = match value {
-                        Some(value) => slot.refusal(value, plan.allowed),
+                        Some(value) => plan.refusal(*slot, value),
                         None => Some("a number"),
                     };
                     if let Some(expected) = refusal {
@@ -337,8 +355,9 @@ pub(super) fn read_line(
             }
         }
     }
-    if !form.may_be_longer
+    if form.rest != Rest::Anything
         && let Some(field) = fields.next()
+        && !(form.rest == Rest::Comment && line[field.start] == b'#')
     {
         let count = plan.uses.len();
         return refused(field, &format!("the end of the line after {count} columns"));

@@ -12,7 +12,7 @@ use super::columns::{MOST_COLUMNS, Slot, components};
 use super::element;
 use super::error::TableError;
 use super::fields::{self, Division};
-use super::form::{ElementOf, Form, LineKind};
+use super::form::{ElementOf, Form, LineKind, Rest};
 use super::guess::{self, Guess};
 use super::header::Header;
 use super::input::Input;
@@ -42,8 +42,11 @@ pub(crate) fn header(
     let is_extended = columns.is_some();
     let columns = columns.unwrap_or_else(|| ["element", "x", "y", "z"].map(String::from).into());
     let form = Form {
-        may_be_longer: !is_extended,
-        element: |line, field| element::of_label(&line[field]),
+        rest: match is_extended {
+            true => Rest::Nothing,
+            false => Rest::Anything,
+        },
+        element: |_, line, field| element::of_label(&line[field]),
         ..Form::new(Division::Words)
     };
     let noun = match is_first {
@@ -93,7 +96,7 @@ fn guess(
     let column = &columns[column];
     let (element, told): (ElementOf, _) = match are_types {
         true => (
-            |line, field| element::of_lettered_label(&line[field]),
+            |_, line, field| element::of_lettered_label(&line[field]),
             format!(
                 "the numbers in the column `{column}` are read as types of atoms, not as atomic numbers; if they \
                  are atomic numbers, use `columns: (element: {column:?})`; if not, set radii and colors of the \
@@ -101,7 +104,7 @@ fn guess(
             ),
         ),
         false => (
-            |line, field| element::of_label(&line[field]),
+            |_, line, field| element::of_label(&line[field]),
             guess::as_atomic_numbers(column),
         ),
     };

@@ -11,9 +11,9 @@ pub(crate) use color::{Color, from_srgb, linear};
 pub(crate) use point::{Axis, FrameRange, Point, Repeat, Shift};
 pub(crate) use quantity::{
     Amplitude, Coordinate, Degrees, Every, Exponent, FieldOfView, Fill, FocalLength, Frame,
-    FrameCount, FramesPerSecond, GrainSize, ImageSide, MOST_FRAMES, OutlineUnits, OutlineWidth,
-    Percent, Radius, RadiusScale, Reference, RetinaDistance, RetinaWidth, Scale, Seed, Shininess,
-    Shutter, Speed, Step, Strength, Swing, Turns, Zoom,
+    FrameCount, FramesPerSecond, GrainSize, ImageSide, LineCount, MOST_FRAMES, OutlineUnits,
+    OutlineWidth, Percent, Radius, RadiusScale, Reference, RetinaDistance, RetinaWidth, Scale,
+    Seed, Shininess, Shutter, Speed, Step, Strength, Swing, Turns, Zoom,
 };
 pub(crate) use rotation::Rotation;
 pub(crate) use words::{FileName, Flag, LightName, MaterialName, UnitName};

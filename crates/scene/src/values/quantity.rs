@@ -95,6 +95,8 @@ quantities! {
     Frame(i32): "a whole number (a frame)", |_| true;
     /// A number of frames.
     FrameCount(i32): "a whole number of frames from 1 to 1000000", |n| (1..=MOST_FRAMES).contains(&n), default 120;
+    /// Lines before a table.
+    LineCount(u32): "a whole number of lines, at least 0", |_| true, default 0;
     /// One of so many steps.
     Every(u32): "a whole number, at least 1", |n| n >= 1, default 1;
     /// A number of cells side by side.

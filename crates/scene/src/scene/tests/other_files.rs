@@ -29,7 +29,17 @@ fn tables_are_told_from_scenes() {
         ("g.dump.gz", b"\x1f\x8b\x08\0", true),
         ("h.gz", b"\x1f\x8b\x08\0", true),
         ("h.zst", b"(\xb5\x2f\xfd\x04\0", true),
+        ("h.csv.xz", b"\xfd7zXZ\0\0\x04", true),
+        ("h", b"BZh91AY&SY", true),
         ("i", rows, true),
+        // A title in parentheses.
+        ("k.lmp", b"(by hand)\n\n2 atoms\n1 atom types\n", true),
+        (
+            "k",
+            b"(by hand)\n\n\n  1  0  0  0  0  0  0  0  0  0999 V2000\n",
+            true,
+        ),
+        ("k.ron", b"(by hand)\n\n2 atoms\n1 atom types\n", false),
         ("i.ron", b"(image: 0 0 0)", false),
         ("j", b"image: 0 0 0", false),
     ] {
@@ -42,11 +52,10 @@ fn tables_are_told_from_scenes() {
 
 #[test]
 fn other_files_are_named() {
-    let message = refusal("a.mol2", "@<TRIPOS>MOLECULE\n");
+    let message = refusal("a.cml", "<molecule/>\n");
     assert!(
-        message.starts_with(
-            "expected a scene or a table of particles, found a molecule in MOL2: save"
-        ),
+        message
+            .starts_with("expected a scene or a table of particles, found a molecule in CML: save"),
         "{message}"
     );
     // What looks like a scene is one.

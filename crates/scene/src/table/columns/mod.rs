@@ -8,9 +8,11 @@ mod plan;
 mod positions;
 mod slot;
 mod units;
+mod uses;
 
 pub(crate) use filter::Test;
 pub(crate) use kinds::plan_of_kinds;
 pub(crate) use names::{MOST_COLUMNS, components, has_axis, marked, tells_radius, unit};
-pub(crate) use plan::{Nature, Plan, RadiusSource, Uses, ValueSource};
+pub(crate) use plan::{Nature, Plan, RadiusSource, ValueSource};
 pub(crate) use slot::{MOST_FILTERS, Slot};
+pub(crate) use uses::Uses;

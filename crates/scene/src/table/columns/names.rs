@@ -28,7 +28,7 @@ impl Names {
                 })
             }
             ColumnRef::Constant(number) => Err(format!(
-                "expected a column, found `Constant({number})`, which is allowed only for `x`, `y` and `z`"
+                "expected a column, found the constant `{number:?}`, which is allowed only for `x`, `y`, `z`, `radius` and in `Length`"
             )),
             ColumnRef::Name(name) => {
                 let found = self.find(name).or_else(|| self.find_synonym(name));

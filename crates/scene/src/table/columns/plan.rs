@@ -9,6 +9,7 @@ use super::super::request::{Coloring, ColumnRef, Missing, RadiusLaw, Request, Va
 use super::filter::Test;
 use super::names::{Names, marked};
 use super::slot::{Allowed, Slot};
+use super::uses::Uses;
 use super::{positions, units};
 use crate::values::linear;
 
@@ -46,28 +47,6 @@ pub(crate) struct Nature<'a> {
     pub(crate) edges: Option<DMat3>,
     /// The factors on positions that are lengths.
     pub(crate) scale: DVec3,
-}
-
-/// The purposes of a column.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) enum Uses {
-    /// It is passed over.
-    #[default]
-    None,
-    One(Slot),
-    Several(Vec<Slot>),
-}
-
-impl Uses {
-    /// The purposes, one after another.
-    #[inline(always)]
-    pub(crate) fn slots(&self) -> &[Slot] {
-        match self {
-            Self::None => &[],
-            Self::One(slot) => std::slice::from_ref(slot),
-            Self::Several(slots) => slots,
-        }
-    }
 }
 
 /// The way in which the columns of a table are read.
@@ -140,7 +119,7 @@ impl Plan {
             allowed: Allowed {
                 may_miss: request.missing != Missing::Refuse,
                 is_encoded: false,
-                has_any_radius: matches!(columns.radius_law, RadiusLaw::Exponential(_)),
+                has_radius_law: columns.radius_law != RadiusLaw::Linear,
             },
             hides_missing: request.missing == Missing::Hide,
             constants: [0.0; Slot::COUNT],
@@ -157,8 +136,8 @@ impl Plan {
         let [x, y, z] = &columns.position;
         for (slot, chosen) in [(Slot::X, x), (Slot::Y, y), (Slot::Z, z)] {
             match chosen {
-                Some(ColumnRef::Constant(number)) => plan.constants[slot.index()] = *number,
-                chosen => plan.take(slot, chosen.as_ref())?,
+                Some(chosen) => plan.take_or_fix(slot, chosen)?,
+                None => plan.take(slot, None)?,
             }
         }
         let positions = [Slot::X, Slot::Y, Slot::Z].map(|slot| plan.name_of(slot));
@@ -215,7 +194,9 @@ impl Plan {
                 plan.take_element(element)?;
                 plan.has_element_categories = true;
             }
-            Coloring::Value | Coloring::Category => plan.take_value(request, nature)?,
+            Coloring::Value | Coloring::Category | Coloring::Distinct => {
+                plan.take_value(request, nature)?;
+            }
             Coloring::Table => {
                 for slot in colors {
                     plan.take(slot, None)?;
@@ -267,7 +248,7 @@ impl Plan {
             return Ok(RadiusSource::Fixed(radius));
         }
         if let Some(chosen) = &request.columns.radius {
-            self.take(Slot::Radius, Some(chosen))?;
+            self.take_or_fix(Slot::Radius, chosen)?;
             return Ok(RadiusSource::Column(scale.unwrap_or(1.0), law));
         }
         if let Some((column, name)) = self.names.find_radius(has_colors) {
@@ -298,6 +279,23 @@ impl Plan {
             self.linear[usize::from(value as u8)]
         } else {
             value as f32
+        }
+    }
+
+    /// The expected thing instead of this number; `None` where it is allowed.
+    #[inline(always)]
+    pub(crate) fn refusal(&self, slot: Slot, number: f64) -> Option<&'static str> {
+        let refusal = slot.refusal(number, self.allowed);
+        match slot {
+            Slot::Radius if self.allowed.has_radius_law && refusal.is_none() => {
+                let RadiusSource::Column(scale, law) = self.radius else {
+                    return None;
+                };
+                let radius = scale * law.of(number);
+                let is_radius = radius.is_finite() && radius > 0.0;
+                (!is_radius).then_some("a number that gives a finite radius greater than 0")
+            }
+            _ => refusal,
         }
     }
 
@@ -345,6 +343,17 @@ impl Plan {
         Ok(())
     }
 
+    /// Uses the column that the scene file means for this, or else its constant.
+    fn take_or_fix(&mut self, slot: Slot, chosen: &ColumnRef) -> Result<(), String> {
+        match chosen {
+            ColumnRef::Constant(number) => {
+                self.constants[slot.index()] = *number;
+                Ok(())
+            }
+            chosen => self.take(slot, Some(chosen)),
+        }
+    }
+
     fn take_element(&mut self, chosen: Option<&ColumnRef>) -> Result<(), String> {
         let is_taken = self.name_of(Slot::Element).is_some();
         if is_taken {
@@ -359,9 +368,8 @@ impl Plan {
         match &request.value {
             Some(Value::Length(components)) => {
                 self.value = ValueSource::Length;
-                for (index, name) in (0..).zip(components) {
-                    let column = self.names.chosen(name)?;
-                    self.use_for(column, Slot::Vector(index));
+                for (index, chosen) in (0..).zip(components) {
+                    self.take_or_fix(Slot::Vector(index), chosen)?;
                 }
             }
             Some(Value::Column(name)) => {

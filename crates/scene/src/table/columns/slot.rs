@@ -27,8 +27,8 @@ pub(crate) struct Allowed {
     pub(crate) may_miss: bool,
     /// Colors are sRGB values from 0 to 255.
     pub(crate) is_encoded: bool,
-    /// Radii are made of any numbers.
-    pub(crate) has_any_radius: bool,
+    /// Radii are not the numbers of a column, but follow from them.
+    pub(crate) has_radius_law: bool,
 }
 
 /// The most conditions on rows.
@@ -84,7 +84,7 @@ impl Slot {
             Self::Filter(_) | Self::Element => None,
             Self::Image(_) => (number.fract() != 0.0).then_some("a whole number of cells"),
             _ if !number.is_finite() => Some("a finite number"),
-            Self::Radius if number <= 0.0 && !allowed.has_any_radius => {
+            Self::Radius if number <= 0.0 && !allowed.has_radius_law => {
                 Some("a radius greater than 0")
             }
             Self::Red | Self::Green | Self::Blue => {

@@ -26,18 +26,6 @@ const POINTS: &str = "save the points as PLY or CSV, with CloudCompare or MeshLa
 /// Kinds that the endings of names tell, or the first bytes.
 pub(super) const KINDS: &[Foreign] = &[
     of(
-        "a bzip2 file",
-        "decompress it (`bunzip2 -k FILE`), or compress the table by gzip",
-        &["bz2"],
-        &[(0, b"BZh")],
-    ),
-    of(
-        "an xz file",
-        "decompress it (`unxz -k FILE`), or compress the table by gzip",
-        &["xz"],
-        &[(0, b"\xfd7zXZ\0")],
-    ),
-    of(
         "an LZ4 file",
         "decompress it (`unlz4 FILE`), or compress the table by gzip",
         &["lz4"],
@@ -93,13 +81,6 @@ pub(super) const KINDS: &[Foreign] = &[
         &["bcif"],
         &[],
     ),
-    of("a molecule in MOL2", MOLECULE, &["mol2"], &[]),
-    of(
-        "a molecule in SDF",
-        MOLECULE,
-        &["sdf", "sd", "mol", "mdl"],
-        &[],
-    ),
     of("a molecule in CML", MOLECULE, &["cml"], &[]),
     of("a cube file of Gaussian", MOLECULE, &["cube", "cub"], &[]),
     of(
@@ -139,12 +120,6 @@ pub(super) const KINDS: &[Foreign] = &[
         "a structure of another program for crystals",
         CELL,
         &["cell", "res", "pwi", "pwo", "gen", "cfg", "castep", "cssr"],
-        &[],
-    ),
-    of(
-        "an input of LAMMPS (data file)",
-        "save it as a dump, with LAMMPS (`write_dump all custom a.dump id type x y z`), or as XYZ with ASE or OVITO",
-        &["lmp", "data"],
         &[],
     ),
     of("a structure in XSF", CELL, &["xsf", "axsf"], &[]),

@@ -18,12 +18,6 @@ pub(super) fn ending(head: &[u8]) -> Option<&'static str> {
     if first.starts_with(b"<") {
         return of_markup(&lines);
     }
-    if lines.iter().any(|line| line.starts_with(b"@<TRIPOS>")) {
-        return Some("mol2");
-    }
-    if line(3).ends_with(b"V2000") || line(3).ends_with(b"V3000") {
-        return Some("sdf");
-    }
     if first.starts_with(b"PSF") && lines.iter().any(|line| line.ends_with(b"!NTITLE")) {
         return Some("psf");
     }
@@ -35,9 +29,6 @@ pub(super) fn ending(head: &[u8]) -> Option<&'static str> {
     }
     if first.starts_with(b"{") && lines.iter().any(|line| line.contains(&b'"')) {
         return Some("json");
-    }
-    if is_data_of_lammps(&lines) {
-        return Some("lmp");
     }
     // Lines of a table have as many fields each.
     let grid = (2..6).all(|number| matches!(numbers(line(number)), Some(4 | 5)));
@@ -70,22 +61,6 @@ fn is_xsf(lines: &[&[u8]]) -> bool {
         .peek()
         .is_some_and(|word| KINDS.contains(word) || SECTIONS.contains(word));
     is_begun && words.any(|word| SECTIONS.contains(&word))
-}
-
-/// Says whether lines tell the numbers of atoms and of their types, or the bounds of a box.
-fn is_data_of_lammps(lines: &[&[u8]]) -> bool {
-    let is = |line: &[u8], names: &[&[u8]]| {
-        let line = line.split(|&byte| byte == b'#').next().unwrap_or_default();
-        let words = fields::all(line, &Division::Words);
-        let numbers = words.len().saturating_sub(names.len());
-        words.ends_with(names)
-            && numbers > 0
-            && words[..numbers]
-                .iter()
-                .all(|word| parse(word, false).is_some())
-    };
-    let has = |names: &[&[u8]]| lines.iter().any(|line| is(line, names));
-    has(&[b"atoms"]) && (has(&[b"atom", b"types"]) || has(&[b"xlo", b"xhi"]))
 }
 
 /// The usual ending of the name of an XML or HTML file.

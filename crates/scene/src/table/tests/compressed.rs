@@ -18,6 +18,138 @@ pub(super) fn zstandard(bytes: &[u8]) -> Vec<u8> {
     ruzstd::encoding::compress_to_vec(bytes, ruzstd::encoding::CompressionLevel::Fastest)
 }
 
+pub(super) fn bzip2(bytes: &[u8]) -> Vec<u8> {
+    let mut bzip2 = ::bzip2::write::BzEncoder::new(Vec::new(), ::bzip2::Compression::fast());
+    bzip2.write_all(bytes).unwrap();
+    bzip2.finish().unwrap()
+}
+
+pub(super) fn xz(bytes: &[u8]) -> Vec<u8> {
+    let options = lzma_rust2::XzOptions::with_preset(1);
+    let mut xz = lzma_rust2::XzWriter::new(Vec::new(), options).unwrap();
+    xz.write_all(bytes).unwrap();
+    xz.finish().unwrap()
+}
+
+/// The table, compressed by `bz2.compress` of Python 3.11.7.
+const BZIP2: &str = "425a6839314159265359fb712a7a00000ed980001000077f800200107020002226268309b50a1a69800a79e3ac1c8b102c2fac910126\
+                     28d4cbe2ee48a70a121f6e254f40";
+/// The table, compressed by `lzma.compress` of Python 3.11.7 with the checksums CRC-64, CRC-32 and SHA-256, and with none; the
+/// second with a dictionary of 512 MiB.
+const XZ: [&str; 4] = [
+    "fd377a585a000004e6d6b446020021011c00000010cf58cc01001f782c792c7a2c720a312c2d322e352c33652d332c302e350a342c352c362c370a00e95e\
+     91f0ddace8ff000138201829770c1fb6f37d010000000004595a",
+    "fd377a585a0000016922de3602002101220000008240acdc01001f782c792c7a2c720a312c2d322e352c33652d332c302e350a342c352c362c370a00599a\
+     f2e4000134201466c2a09042990d010000000001595a",
+    "fd377a585a00000ae1fb0ca10200210116000000742fe5a301001f782c792c7a2c720a312c2d322e352c33652d332c302e350a342c352c362c370a00244b\
+     92b68e5ae6b9f116dbd62600702387a0bb6f572db02041c285d4e7684a0100015020b7c853a1189b4b9a01000000000a595a",
+    "fd377a585a000000ff12d9410200210116000000742fe5a301001f782c792c7a2c720a312c2d322e352c33652d332c302e350a342c352c362c370a000001\
+     302010a3aec406729e7a010000000000595a",
+];
+
+fn of_digits(text: &str) -> Vec<u8> {
+    let byte = |at: usize| u8::from_str_radix(&text[at..at + 2], 16).unwrap();
+    (0..text.len()).step_by(2).map(byte).collect()
+}
+
+#[test]
+fn files_of_bzip2_and_xz_are_read() {
+    let bz2 = of_digits(BZIP2);
+    let xzs = XZ.map(of_digits);
+    let (start, rest) = TABLE.split_at(10);
+    let (start, rest) = (start.as_bytes(), rest.as_bytes());
+    let padded = [xz(start), vec![0; 8], xz(b""), xz(rest), vec![0; 4]].concat();
+    for (name, bytes) in [
+        ("a.csv.bz2", bz2.clone()),
+        ("a.csv", bz2.clone()),
+        (
+            "a.csv.bz2",
+            [bzip2(start), bzip2(b""), bzip2(rest)].concat(),
+        ),
+        ("a.csv.xz", xzs[0].clone()),
+        ("a.csv.xz", xzs[2].clone()),
+        ("a.csv", xzs[3].clone()),
+        ("a.csv.xz", padded),
+    ] {
+        assert_eq!(spheres(&scene(name, bytes, "")), TWO, "{name}");
+    }
+    for (name, bytes, expected) in [
+        (
+            "a.csv.bz2",
+            [&bz2[..], b"xy"].concat(),
+            "expected another bzip2 stream or the end at byte 68, found the byte 0x78",
+        ),
+        (
+            "a.csv.bz2",
+            bz2[..60].to_vec(),
+            "the bzip2 stream at byte 0 is cut: the file ends within it",
+        ),
+        (
+            "a.csv.bz2",
+            [&bz2[..], &bz2[..60]].concat(),
+            "the bzip2 stream at byte 68 is cut: the file ends within it",
+        ),
+        (
+            "a.csv.xz",
+            xzs[0][..60].to_vec(),
+            "the xz stream is cut: the file ends within it",
+        ),
+        (
+            "a.csv.xz",
+            [&xzs[0][..], b"xy"].concat(),
+            "the xz stream is damaged before byte 89: invalid data after stream",
+        ),
+        (
+            "a.csv.xz",
+            xzs[1].clone(),
+            "the xz stream needs more than 128 MiB of memory before byte 24: decompress it",
+        ),
+    ] {
+        let message = refusal(name, bytes, "");
+        let found = message.split("cannot be read: ").nth(1);
+        assert_eq!(found, Some(expected), "{message}");
+    }
+}
+
+#[test]
+fn damaged_files_of_bzip2_and_xz_are_refused() {
+    let bz2 = of_digits(BZIP2);
+    // The checksum of the block, and that of the stream, which begins within a byte.
+    check(
+        "a.csv.bz2",
+        &bz2,
+        (10..14).chain(bz2.len() - 5..bz2.len() - 1),
+        "",
+    );
+    for xz in [XZ[0], XZ[2]].map(of_digits) {
+        check("a.csv.xz", &xz, 0..xz.len(), "");
+    }
+    for (name, whole) in [("a.csv.bz2", bz2), ("a.csv.xz", of_digits(XZ[0]))] {
+        for end in 1..whole.len() {
+            assert!(
+                load(name, &whole[..end], "").is_err(),
+                "{name} cut at byte {end}"
+            );
+        }
+    }
+    // Neither holds more than its size lets expect.
+    let blank = " ".repeat(1 << 20) + "\n";
+    let (bz2, xz) = (bzip2(blank.as_bytes()), xz(blank.as_bytes()));
+    for (name, bytes) in [("a.txt.bz2", bz2.repeat(70)), ("a.txt.xz", xz.repeat(70))] {
+        let message = refusal(name, bytes, "");
+        assert!(
+            message.contains("decompress to more than 67108864"),
+            "{message}"
+        );
+    }
+    let many = bzip2(b"").repeat(4097);
+    let message = refusal("a.csv.bz2", [many, bzip2(TABLE.as_bytes())].concat(), "");
+    assert!(
+        message.contains("more than 4096 of its bzip2 streams are empty"),
+        "{message}"
+    );
+}
+
 /// A frame that is to be passed over.
 fn skippable(bytes: &[u8]) -> Vec<u8> {
     let mut frame = 0x184d_2a53_u32.to_le_bytes().to_vec();
@@ -87,6 +219,10 @@ fn tables_that_are_compressed_twice_are_called_so() {
         (
             gzip(&zstandard(TABLE.as_bytes())),
             "this gzip file, found a Zstandard file",
+        ),
+        (
+            xz(&bzip2(TABLE.as_bytes())),
+            "this xz file, found a bzip2 file",
         ),
         (
             zstandard(&gzip(TABLE.as_bytes())),

@@ -52,7 +52,7 @@ fn tables_of_text_have_many_forms() {
     assert_eq!(
         refusal("a.xtc", b"\0\0\x07\xcb\0\0", ""),
         "scene.ron:2:17: expected a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.npy`, `.npz`, `.ply`, `.xyz`, `.extxyz`, \
-         `.dump`, `.lammpstrj`, `.gro`, `.gsd`, `.pdb`, `.ent`, `.pdbqt`, `.pqr`, `.cif`, `.mmcif`, `.pdbx`, `.vtk`, `.poscar`, `.contcar`, `.xdatcar`, `.vasp`, `.vtu` or `.vtp`), found \"a.xtc\", \
+         `.dump`, `.lammpstrj`, `.gro`, `.gsd`, `.pdb`, `.ent`, `.pdbqt`, `.pqr`, `.cif`, `.mmcif`, `.pdbx`, `.mol2`, `.sdf`, `.sd`, `.mol`, `.mdl`, `.data`, `.lmp`, `.vtk`, `.poscar`, `.contcar`, `.xdatcar`, `.vasp`, `.vtu` or `.vtp`), found \"a.xtc\", \
          a trajectory of GROMACS (XTC): save it as extended XYZ, PDB or a LAMMPS dump, with MDAnalysis, MDTraj or ASE"
     );
 }

@@ -57,6 +57,22 @@ pub(super) fn table(ending: &str) -> (Vec<u8>, bool) {
         "pdb" | "ent" | "pdbqt" => pdb,
         "pqr" => lines(|id, [x, y, z]| format!("ATOM {id} C LIG 1 {x} {y} {z} 0.5 1.7\n")),
         "cif" | "mmcif" | "pdbx" => format!("{loop_of_atoms}{words}#\n"),
+        "mol2" => {
+            let atoms = lines(|id, [x, y, z]| format!("{id} C{id} {x:.4} {y:.4} {z:.4} C.3\n"));
+            format!(
+                "@<TRIPOS>MOLECULE\nbox\n4 0\nSMALL\nNO_CHARGES\n@<TRIPOS>ATOM\n{atoms}@<TRIPOS>BOND\n"
+            )
+        }
+        "sdf" | "sd" | "mol" | "mdl" => {
+            let atoms = lines(|_, [x, y, z]| format!("{x:10.4}{y:10.4}{z:10.4} C   0  0\n"));
+            format!(
+                "box\n  by hand\n\n  4  0  0  0  0  0  0  0  0  0999 V2000\n{atoms}M  END\n$$$$\n"
+            )
+        }
+        "data" | "lmp" => {
+            let atoms = lines(|id, [x, y, z]| format!("{id} 1 {x} {y} {z}\n"));
+            format!("box\n\n4 atoms\n1 atom types\n0 9 xlo xhi\n\nAtoms # atomic\n\n{atoms}")
+        }
         "poscar" | "contcar" | "xdatcar" | "vasp" => {
             format!("C\n1\n9 0 0\n0 9 0\n0 0 9\nC\n4\nCartesian\n{words}")
         }

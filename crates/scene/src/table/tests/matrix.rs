@@ -2,7 +2,7 @@
 //! their axes.
 
 use super::super::{ENDINGS, Format};
-use super::compressed::{gzip, zstandard};
+use super::compressed::{gzip, xz, zstandard};
 use super::hands::{CORNERS, table};
 use super::*;
 use super::{atoms, cut, gsd};
@@ -25,7 +25,8 @@ fn frames(ending: &str, format: Format) -> (Vec<u8>, usize, Ends) {
     let text = String::from_utf8_lossy(&whole).into_owned();
     match format {
         Format::Csv | Format::Text => (whole, 0, Ends::Untold),
-        Format::Xyz | Format::Lammps | Format::Gro => twice(&whole),
+        Format::Xyz | Format::Lammps | Format::Gro | Format::Mol2 | Format::Sdf => twice(&whole),
+        Format::LammpsData => (whole, 0, Ends::AtBytes),
         Format::Pdb | Format::Pqr => {
             let first = model(1, &text);
             let start = first.len();
@@ -143,7 +144,12 @@ fn every_checksum_is_compared() {
             continue;
         }
         // Of gzip a checksum and a size.
-        for (compression, whole, sums) in [("gz", gzip(&bytes), 8), ("zst", zstandard(&bytes), 4)] {
+        // Of xz the whole end of the stream.
+        for (compression, whole, sums) in [
+            ("gz", gzip(&bytes), 8),
+            ("xz", xz(&bytes), 12),
+            ("zst", zstandard(&bytes), 4),
+        ] {
             let name = format!("a.{ending}.{compression}");
             assert!(load(&name, &whole, "radius: 1").is_ok(), "{name} is whole");
             for place in whole.len() - sums..whole.len() {

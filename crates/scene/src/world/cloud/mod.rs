@@ -9,8 +9,10 @@ mod pattern;
 mod remarked;
 mod settings;
 mod step;
+mod step_rows;
 mod steps;
 mod summary;
+mod times;
 
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! A cloud whose steps are known and can be read.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use glam::DVec3;
 use marbles_core::{Albedos, Sphere};
@@ -30,7 +30,7 @@ pub(crate) struct OpenCloud {
     pub(super) remarks: (Remarks, usize),
     pub(super) late: Mutex<LateRemarks>,
     /// The file of frames, ready for one of them.
-    open: Mutex<Option<Frames<'static>>>,
+    pub(super) open: Mutex<Option<Frames<'static>>>,
     pub(super) observed: Observed,
 }
 
@@ -61,6 +61,10 @@ impl OpenCloud {
         };
         let numbered = pattern::files(folder, &open.cloud.name);
         let numbered = numbered.map_err(|error| open.refuse_table(&path, error.into()))?;
+        if let (Some(_), Some((_, place))) = (&numbered, &open.cloud.time) {
+            let message = "expected one file for `time`, found a numbered series, each of whose files is a step";
+            return Err(CloudError::Scene(Fault::new(place.clone(), message)));
+        }
         if let Some(numbered) = numbered {
             let numbers = numbered.files.iter().map(|file| file.0);
             let chosen = open.choose(numbers.clone());
@@ -70,12 +74,18 @@ impl OpenCloud {
             let in_range: Vec<i64> = open.cloud.timeline.in_range(numbers).collect();
             let name = harmless(&open.cloud.name);
             open.observed.warn(numbered.warnings(&name, &in_range));
-            if let Some((path, doubts)) = open.steps.doubts_of_last() {
+            if let Some((path, doubts)) = open.steps.doubts_of_last(open.cloud.skip_lines) {
                 open.observed.note_doubts(&open.name_of(&path), doubts);
             }
+        } else if let Some((column, _)) = open.cloud.time.clone() {
+            let times = open.times(&path, &column);
+            let times = times.map_err(|error| open.refuse_table(&path, error))?;
+            let chosen = open.choose(1..=times.len() as i64)?;
+            let times = chosen.into_iter().map(|place| times[place]).collect();
+            open.steps = Steps::Times(column, times);
         } else if open.cloud.takes_all {
             let refused = |error| open.refuse_table(&path, error);
-            let mut frames = Frames::open(&path, UNWATCHED).map_err(refused)?;
+            let mut frames = open.open_file(&path, UNWATCHED).map_err(refused)?;
             if !frames.may_be_several() {
                 let name = quoted(&open.cloud.name);
                 return Err(open.refused(without_frames(&name, frames.format())));
@@ -91,16 +101,16 @@ impl OpenCloud {
     }
 
     /// Notes what is in doubt in the file at `path`.
-    fn note_doubts(&self, path: &Path, frames: &mut Frames<'_>) {
+    pub(super) fn note_doubts(&self, path: &Path, frames: &mut Frames<'_>) {
         let doubts = frames.take_doubts();
         self.observed.note_doubts(&self.name_of(path), doubts);
     }
 
     /// The name of a file in messages.
-    fn name_of(&self, path: &Path) -> String {
+    pub(super) fn name_of(&self, path: &Path) -> String {
         match self.steps {
             Steps::Files(_) => path.display().to_string(),
-            Steps::One | Steps::Frames(_) => self.cloud.name.clone(),
+            Steps::One | Steps::Frames(_) | Steps::Times(..) => self.cloud.name.clone(),
         }
     }
 
@@ -129,6 +139,7 @@ impl OpenCloud {
             Steps::One => None,
             Steps::Files(files) => Some(files.len()),
             Steps::Frames(places) => Some(places.len()),
+            Steps::Times(_, times) => Some(times.len()),
         }
     }
 
@@ -136,7 +147,7 @@ impl OpenCloud {
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         match &self.steps {
             Steps::Files(files) => files.clone(),
-            Steps::One | Steps::Frames(_) => vec![self.path(0)],
+            Steps::One | Steps::Frames(_) | Steps::Times(..) => vec![self.path(0)],
         }
     }
 
@@ -279,75 +290,8 @@ impl OpenCloud {
     pub(super) fn path(&self, step: usize) -> PathBuf {
         match &self.steps {
             Steps::Files(files) => files[step].clone(),
-            Steps::One | Steps::Frames(_) => self.folder.join(&self.cloud.name),
+            Steps::One | Steps::Frames(_) | Steps::Times(..) => self.folder.join(&self.cloud.name),
         }
-    }
-
-    /// The rows of a step, and whether frames follow that are not read.
-    pub(super) fn rows(
-        &self,
-        step: usize,
-        watch: &(dyn Fn(u64, u64) + Sync),
-    ) -> Result<(Rows, bool), CloudError> {
-        let path = self.path(step);
-        let rows = match &self.steps {
-            Steps::Frames(places) => {
-                let rows = self.frame(&path, step, places);
-                rows.map(|rows| (rows, false))
-            }
-            Steps::One | Steps::Files(_) => self.first_frame(&path, watch),
-        };
-        rows.map_err(|error| self.refuse_table(&path, error))
-    }
-
-    fn first_frame(
-        &self,
-        path: &Path,
-        watch: &(dyn Fn(u64, u64) + Sync),
-    ) -> Result<(Rows, bool), TableError> {
-        let mut frames = Frames::open(path, watch)?;
-        self.observed.check(path, &frames)?;
-        let rows = frames.read(&self.cloud.request);
-        frames.check_unchanged()?;
-        let rows = rows?.ok_or_else(gone)?;
-        let has_more = frames.has_more();
-        if has_more && path != self.path(0) {
-            // That of the first step is told with the scene.
-            let name = harmless(&self.name_of(path));
-            self.observed.warn([format!("{name}: {FIRST_OF_SEVERAL}")]);
-        }
-        frames.finish()?;
-        self.note_doubts(path, &mut frames);
-        Ok((rows, has_more))
-    }
-
-    fn frame(
-        &self,
-        path: &Path,
-        step: usize,
-        places: &[crate::table::FramePlace],
-    ) -> Result<Rows, TableError> {
-        let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
-        let ready = open.take().and_then(|mut frames| {
-            frames.go_to(places[step]).ok()?;
-            Some(frames)
-        });
-        let mut frames = match ready {
-            Some(frames) => frames,
-            None => {
-                let mut frames = Frames::open(path, UNWATCHED)?;
-                frames.go_to(places[step])?;
-                frames
-            }
-        };
-        self.observed.check(path, &frames)?;
-        frames.check_unchanged()?;
-        let rows = frames.read(&self.cloud.request);
-        // What another one looks like says nothing.
-        frames.check_unchanged()?;
-        let rows = rows?;
-        *open = Some(frames);
-        rows.ok_or_else(gone)
     }
 
     fn refused(&self, message: String) -> CloudError {
@@ -371,9 +315,4 @@ impl OpenCloud {
             }
         }
     }
-}
-
-/// The file became shorter since its frames were counted.
-pub(super) fn gone() -> TableError {
-    std::io::Error::from(std::io::ErrorKind::UnexpectedEof).into()
 }

@@ -6,6 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::CloudError;
+use crate::table::COMPRESSED_ENDINGS;
 use crate::text::{list, quoted};
 
 /// The files of a name with a place for a number, in the order of their numbers.
@@ -219,10 +220,10 @@ impl<'name> Mark<'name> {
     fn is_near(&self, name: &str) -> bool {
         let name = name.to_lowercase();
         let plain = |name: &str| {
-            let name = name
-                .strip_suffix(".gz")
-                .or_else(|| name.strip_suffix(".zst"));
-            name.map(str::to_owned)
+            let (plain, ending) = name.rsplit_once('.')?;
+            COMPRESSED_ENDINGS
+                .contains(&ending)
+                .then(|| plain.to_owned())
         };
         let after = self.after.to_lowercase();
         let after = plain(&after).unwrap_or(after);

@@ -7,8 +7,10 @@ use marbles_core::MaterialId;
 use super::super::placement::{Placement, turn};
 use super::coloring::Scale;
 use super::steps::Timeline;
-use crate::file::{self, ElementRadii, Keep, TakenFrames};
-use crate::table::{Coloring, Filter, MOST_FILTERS, Periodic, Radii, RadiusLaw, Request, Test};
+use crate::file::{self, ElementRadii, Keep, RadiusColumn, TakenFrames};
+use crate::table::{
+    Coloring, ColumnRef, Filter, MOST_FILTERS, Periodic, Radii, RadiusLaw, Request, Test,
+};
 use crate::text::{Placed, optional, refuse};
 use crate::values::{Every, Flag, Repeat, Speed};
 
@@ -22,6 +24,10 @@ pub(crate) struct Cloud {
     pub(crate) material: MaterialId,
     /// All frames of its file are steps.
     pub(super) takes_all: bool,
+    /// The column whose different numbers are steps, and its place in bytes of the scene file.
+    pub(super) time: Option<(ColumnRef, Range<usize>)>,
+    /// The lines before the table.
+    pub(super) skip_lines: u64,
     pub(super) timeline: Timeline,
     pub(crate) request: Request,
     pub(super) scale: Scale,
@@ -83,6 +89,7 @@ impl Cloud {
         let others = optional(&cloud.others, |others| {
             Some((others.radius.get()?.0, others.color.get()?.0))
         })?;
+        let (radius_column, radius_law) = radius_column(columns)?;
         let scale = Scale::new(cloud, others.map(|(_, color)| color))?;
         let column =
             |column: &Option<Placed<_>>| optional(column, |column| Some(Clone::clone(column)));
@@ -91,6 +98,8 @@ impl Cloud {
             place: cloud.file.place.clone(),
             material,
             takes_all: cloud.frames.get()? == TakenFrames::All,
+            time: time(cloud)?,
+            skip_lines: u64::from(cloud.skip_lines.get()?.0),
             timeline: Timeline {
                 range: optional(&cloud.steps, |range| Some(range.first..=range.last))?,
                 every: cloud.every.get().map(|Every(every)| every)?,
@@ -109,15 +118,9 @@ impl Cloud {
                         column(&columns.y)?,
                         column(&columns.z)?,
                     ],
-                    radius: column(&columns.radius)?,
+                    radius: radius_column,
                     element: column(&columns.element)?,
-                    radius_law: match columns.radius_law.value.as_ref()? {
-                        file::RadiusLaw::Linear => RadiusLaw::Linear,
-                        file::RadiusLaw::Power(power) => RadiusLaw::Power(power.get()?.0),
-                        file::RadiusLaw::Exponential(factor) => {
-                            RadiusLaw::Exponential(factor.get()?.0)
-                        }
-                    },
+                    radius_law,
                     radius_scale: optional(&columns.radius_scale, |scale| Some(scale.0))?,
                 },
                 coloring: coloring.or(implied),
@@ -171,6 +174,65 @@ fn periodic_place(cloud: &file::Cloud) -> Range<usize> {
         false => flags.iter().find(is_on).map(|flag| &flag.place),
     };
     place.cloned().unwrap_or_default()
+}
+
+/// The column whose different numbers are steps, and its place.
+fn time(cloud: &file::Cloud) -> Option<Option<(ColumnRef, Range<usize>)>> {
+    let Some(time) = &cloud.time else {
+        return Some(None);
+    };
+    if cloud.frames.get()? == TakenFrames::All {
+        let message = "expected `frames: All` or `time`, found both";
+        return refuse(time.place.clone(), message);
+    }
+    match time.value.clone()? {
+        ColumnRef::Constant(_) => {
+            let expected = "the name of a column in quotation marks, or its number from 1";
+            refuse(
+                time.place.clone(),
+                format!("expected {expected}, found a constant"),
+            )
+        }
+        column => Some(Some((column, time.place.clone()))),
+    }
+}
+
+/// The column of radii, and the way from its numbers to them.
+fn radius_column(columns: &file::Columns) -> Option<(Option<ColumnRef>, RadiusLaw)> {
+    let law = optional(&columns.radius_law, |law| match law {
+        file::RadiusLaw::Linear => Some(RadiusLaw::Linear),
+        file::RadiusLaw::Power(power) => Some(RadiusLaw::Power {
+            factor: 1.0,
+            exponent: power.get()?.0,
+            offset: 0.0,
+        }),
+        file::RadiusLaw::Exponential(factor) => Some(RadiusLaw::Exponential(factor.get()?.0)),
+    })?;
+    let chosen = optional(&columns.radius, |chosen| Some(chosen.clone()))?;
+    match (chosen, &columns.radius_law) {
+        (Some(RadiusColumn::Power { .. }), Some(law)) => {
+            let message = "expected `radius: Power(…)` or `radius_law`, found both";
+            refuse(law.place.clone(), message)
+        }
+        (
+            Some(RadiusColumn::Power {
+                column,
+                factor,
+                exponent,
+                offset,
+            }),
+            None,
+        ) => {
+            let law = RadiusLaw::Power {
+                factor,
+                exponent,
+                offset,
+            };
+            Some((Some(column), law))
+        }
+        (Some(RadiusColumn::Column(column)), _) => Some((Some(column), law.unwrap_or_default())),
+        (None, _) => Some((None, law.unwrap_or_default())),
+    }
 }
 
 /// The conditions on rows that are kept.

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use crate::file::End;
-use crate::table::{FramePlace, Frames, TableError};
+use crate::table::{ColumnRef, FramePlace, Frames, TableError};
 use crate::text::LocatedFault;
 
 /// The steps that a cloud has.
@@ -18,17 +18,19 @@ pub(super) enum Steps {
     Files(Vec<PathBuf>),
     /// Frames of one file.
     Frames(Vec<FramePlace>),
+    /// The rows of one table that have the same number in a column.
+    Times(ColumnRef, Vec<f64>),
 }
 
 impl Steps {
     /// Doubts in the last of several files, which a program may still write when it is read. What is wrong in it
     /// is told when its turn comes.
-    pub(super) fn doubts_of_last(&self) -> Option<(PathBuf, Vec<LocatedFault>)> {
+    pub(super) fn doubts_of_last(&self, skip_lines: u64) -> Option<(PathBuf, Vec<LocatedFault>)> {
         let Self::Files(files) = self else {
             return None;
         };
         let (first, last) = (files.first()?, files.last()?);
-        let mut frames = Frames::open(last, &|_, _| {}).ok()?;
+        let mut frames = Frames::open_after(last, skip_lines, &|_, _| {}).ok()?;
         frames.skip().ok()?;
         let mut doubts = frames.take_doubts();
         let is_open = |path: &Path| last_byte(path).ok().map(|byte| byte != b'\n');

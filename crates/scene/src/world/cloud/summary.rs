@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::CloudError;
-use super::open::{OpenCloud, UNWATCHED, gone};
+use super::open::{OpenCloud, UNWATCHED};
+use super::step_rows::gone;
 use super::steps::Steps;
 use crate::table::{
-    Coloring, ColumnRef, Columns, Frames, Missing, Paint, Periodic, Request, TableError, Value,
-    unit,
+    Coloring, ColumnRef, Columns, Missing, Paint, Periodic, Request, TableError, Value, unit,
 };
 
 /// The most columns that are summed up: each is read on its own.
@@ -133,7 +133,7 @@ impl OpenCloud {
         let path = self.path(0);
         let refused = |error| self.refuse_table(&path, error);
         let first = |request: &Request| {
-            let mut frames = Frames::open(&path, UNWATCHED)?;
+            let mut frames = self.open_file(&path, UNWATCHED)?;
             self.observed.check(&path, &frames)?;
             if let Steps::Frames(places) = &self.steps {
                 frames.go_to(places[0])?;
