@@ -73,7 +73,12 @@ fn frames(ending: &str, format: Format) -> (Vec<u8>, usize, Ends) {
 
 #[test]
 fn every_format_is_cut() {
+    let mut last = None;
     for (ending, format) in ENDINGS {
+        if last.replace(format) == Some(format) {
+            // Another ending of the same format.
+            continue;
+        }
         let name = format!("a.{ending}");
         let (bytes, start, ends) = frames(ending, format);
         let has_frames = start > 0;
