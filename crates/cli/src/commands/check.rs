@@ -81,6 +81,9 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
 fn warnings(world: World, views: &[View], frame: i32, lights_move: bool) -> Vec<String> {
     let mut warnings = costs::warnings(&world, views);
     warnings.extend(oversights::warnings(&world, views, frame, lights_move));
+    if !lights_move || views.len() == 1 {
+        warnings.extend(oversights::too_weak(&world, DEFAULT_TOLERANCE));
+    }
     let default = format!("the default `--tolerance {DEFAULT_TOLERANCE:e}`");
     warnings.extend(dim_light::warning([world], DEFAULT_TOLERANCE, &default));
     warnings

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::base::numbers::{bound, counted, short};
 
 /// The largest tolerance without a warning, as a fraction of the brightest light.
-const LARGEST_PART: f64 = 0.02;
+pub(super) const LARGEST_PART: f64 = 0.02;
 /// The tolerance that the warning proposes, as a fraction of the brightest light, before it is rounded to a power of
 /// ten.
 const GOOD_PART: f64 = 1e-3;

@@ -7,6 +7,7 @@ mod sight;
 use marbles_core::{View, World};
 use rayon::prelude::*;
 
+pub(super) use self::lights::too_weak;
 use self::sight::may_be_seen;
 
 /// The most views that are checked; of longer animations, evenly spread ones.
@@ -49,11 +50,8 @@ pub(super) fn warnings(
     let inside = eye::warning(world, view, frame);
     let sees_outsides = inside.is_none();
     warnings.extend(inside);
-    if !lights_move || looked_at.len() == 1 {
-        warnings.extend(lights::too_weak(world));
-        if sees_outsides && !shows_none {
-            warnings.extend(lights::behind(world, &looked_at));
-        }
+    if (!lights_move || looked_at.len() == 1) && sees_outsides && !shows_none {
+        warnings.extend(lights::behind(world, &looked_at));
     }
     warnings
 }

@@ -228,8 +228,12 @@ fn check_view(
     let frames = request.frames.iter().take(most);
     let views: Vec<View> = frames.filter_map(|frame| scene.view(frame).ok()).collect();
     let warnings = threads.install(|| {
-        let mut warnings = oversights::warnings(&world, &views, frame, scene.has_moving_lights());
+        let lights_move = scene.has_moving_lights();
+        let mut warnings = oversights::warnings(&world, &views, frame, lights_move);
         if let Method::Tolerance(tolerance) = request.settings.method {
+            if !lights_move || views.len() == 1 {
+                warnings.extend(oversights::too_weak(&world, tolerance));
+            }
             let option = format!("`--tolerance {tolerance:e}`");
             let of_parts = request.parts.iter().map(|part| part.of(&world));
             let of_layers = request.layers.iter().map(|layer| world.under(layer.light));

@@ -8,18 +8,21 @@ use rayon::prelude::*;
 
 use super::sight::may_be_seen;
 use crate::base::numbers::short;
+use crate::commands::dim_light::LARGEST_PART;
 
 /// A light that adds no more than this makes no difference that anybody sees: white is 1.
 const WEAK: f64 = 0.004;
 /// A crescent that covers no more than this part of a sphere's picture is not what a light is for.
 const THIN: f64 = 0.01;
 
-/// A warning about each light that adds very little to every sphere. A light of intensity 0 is meant to be off.
-pub(super) fn too_weak(world: &World) -> Vec<String> {
+/// A warning about each light that adds very little to every sphere. A light of intensity 0 is meant to be off, and a
+/// tolerance far below what it adds tells that so little light is meant.
+pub(in super::super) fn too_weak(world: &World, tolerance: f64) -> Vec<String> {
+    let weak = WEAK.min(tolerance / LARGEST_PART);
     let lights = world.lights.iter().enumerate();
     let warnings = lights.filter_map(|(index, light)| {
         let spheres = 0..world.spheres().len();
-        let is_bright = |sphere: usize| added(world, light, sphere) > WEAK;
+        let is_bright = |sphere: usize| added(world, light, sphere) > weak;
         if spheres.clone().into_par_iter().any(is_bright) {
             return None;
         }
@@ -154,7 +157,7 @@ mod tests {
         let scene = scene(&format!(
             "camera: Free(), lights: [{light}], spheres: [(center: (0, 0, 5), radius: 1), (center: (0, 0, 9), radius: 2)]"
         ));
-        too_weak(scene.world()).join("; ")
+        too_weak(scene.world(), 1e-3).join("; ")
     }
 
     #[test]
@@ -179,6 +182,14 @@ mod tests {
             "Point(position: (0, 0, 5))",
         ] {
             assert_eq!(weak(enough), "", "{enough}");
+        }
+        let dim = scene(
+            "camera: Free(), lights: [Directional(toward: (0, 0, -1), intensity: 0.001)], \
+             spheres: [(center: (0, 0, 5), radius: 1)]",
+        );
+        for (tolerance, told) in [(1e-3, 1), (3e-5, 1), (1e-5, 0)] {
+            let warnings = too_weak(dim.world(), tolerance);
+            assert_eq!(warnings.len(), told, "{tolerance}: {warnings:?}");
         }
     }
 
