@@ -152,8 +152,8 @@ impl Layout {
     fn text(self) -> Option<&'static str> {
         match self {
             Self::Named => None,
-            Self::Flat => Some("z: Constant(0)"),
-            Self::Numbered(2) => Some("x: 1, y: 2, z: Constant(0)"),
+            Self::Flat => Some("z: 0.0"),
+            Self::Numbered(2) => Some("x: 1, y: 2, z: 0.0"),
             Self::Numbered(4) => Some("x: 1, y: 2, z: 3, radius: 4"),
             Self::Numbered(_) => Some("x: 1, y: 2, z: 3"),
         }

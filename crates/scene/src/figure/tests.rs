@@ -74,17 +74,9 @@ fn columns_are_found_or_left_out() {
             "x,y,z,radius\n0,0,0,1\n4,1,2,2\n",
             "material: \"particles\",\n        //",
         ),
-        (
-            "flat.csv",
-            "x,y,r\n0,0,1\n4,1,1\n",
-            "columns: (z: Constant(0)),",
-        ),
+        ("flat.csv", "x,y,r\n0,0,1\n4,1,1\n", "columns: (z: 0.0),"),
         ("three.txt", "0 0 0\n2 0 0\n4 0 0\n", "radius: 0.9,"),
-        (
-            "two.txt",
-            "0 0\n2 0\n",
-            "columns: (x: 1, y: 2, z: Constant(0)),",
-        ),
+        ("two.txt", "0 0\n2 0\n", "columns: (x: 1, y: 2, z: 0.0),"),
         (
             "four.txt",
             "0 0 0 1\n9 1 0 2\n",

@@ -150,7 +150,7 @@ impl Names {
             false if are_numbers => {
                 " (you can use numbers for columns: `columns: (x: 1, y: 2, z: 3)`)"
             }
-            false if is_flat => " (for a two-dimensional table, use `columns: (z: Constant(0))`)",
+            false if is_flat => " (for a two-dimensional table, use `columns: (z: 0.0)`)",
             _ => "",
         };
         format!("expected a column {name}, found {list}{meant}{hint}")

@@ -37,7 +37,7 @@ fn csv_is_refused_at_its_place() {
         (
             "x,y,zz\n",
             "a.csv:1:1: expected a column `z`, found `x`, `y`, `zz` (for a two-dimensional table, use `columns: \
-             (z: Constant(0))`)",
+             (z: 0.0)`)",
         ),
         (
             "x,y,z\n",

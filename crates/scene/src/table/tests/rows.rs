@@ -104,7 +104,7 @@ fn rows_that_are_not_kept_are_counted() {
 fn tables_of_a_plane_have_a_constant() {
     let flat = "x,y,r\n0,0,1\n3,0,2\n1,3,0.7\n";
     let expected = "a.csv:1:1: expected a column `z`, found `x`, `y`, `r` (for a two-dimensional table, use \
-         `columns: (z: Constant(0))`)";
+         `columns: (z: 0.0)`)";
     assert_eq!(refusal("a.csv", flat, ""), expected);
     let found = spheres(&scene("a.csv", flat, "columns: (z: Constant(-2.5))"));
     let expected = [

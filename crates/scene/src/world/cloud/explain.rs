@@ -83,7 +83,8 @@ pub(super) fn no_steps(
 pub(super) fn without_frames(name: &str, format: &str) -> String {
     format!(
         "expected a table with frames for `frames: All`, found {name}, whose format ({format}) has no frames: for \
-         a series, use one file per step, with names such as `run.####.csv`"
+         a series, use one file per step, with names such as `run.####.csv`, or `time: \"frame\"` for the steps in \
+         a column"
     )
 }
 
