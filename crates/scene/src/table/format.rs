@@ -156,10 +156,9 @@ impl Format {
     /// Says whether a table of this format may tell a cell.
     pub(crate) fn may_have_cell(self) -> bool {
         match self {
-            // The boxes of GSD and of data files are not read.
+            // The boxes of data files are not read.
             Self::Csv
             | Self::Text
-            | Self::Gsd
             | Self::LammpsData
             | Self::Mol2
             | Self::Npy
@@ -169,6 +168,7 @@ impl Format {
             | Self::Vtk
             | Self::VtkXml => false,
             Self::Gro
+            | Self::Gsd
             | Self::Lammps
             | Self::MmCif
             | Self::Pdb

@@ -9,10 +9,14 @@ mod file;
 
 use std::borrow::Cow;
 
+use glam::{DMat3, DVec3};
+
 use self::file::{Chunk, refused, text};
 pub(crate) use self::file::{File, is_like};
 use super::array::Part;
+use super::atom_style::IMAGES;
 use super::binary;
+use super::cell::{Cell, ToldCell};
 use super::columns::{MOST_COLUMNS, Plan, components};
 use super::error::TableError;
 use super::input::Input;
@@ -85,8 +89,17 @@ pub(crate) fn read(
         .iter()
         .flat_map(|array| vec![array.kind; array.names.len()]);
     let kinds: Vec<Kind> = kinds.collect();
-    let plan = binary::plan(names.collect(), &kinds, request).map_err(LocatedFault::of_file)?;
-    let rows = rows(input, &arrays, count, &plan)?;
+    let mut plan = binary::plan(names.collect(), &kinds, request).map_err(LocatedFault::of_file)?;
+    let cell = cell(input, file, frame)?;
+    if plan.images.is_some() {
+        plan.images = match &cell {
+            Some(Ok(cell)) => Some(cell.edges),
+            Some(Err(fault)) => return Err(fault.clone().into()),
+            None => return Err(TableError::NoCell("unwrap")),
+        };
+    }
+    let mut rows = rows(input, &arrays, count, &plan)?;
+    rows.cell = cell;
     input.number = frame + 1;
     Ok(Some(rows))
 }
@@ -104,6 +117,40 @@ fn particles(input: &mut Input<'_>, file: &File, frame: u64) -> Result<u64, Tabl
         refused("expected the number of particles in `particles/N`, found none".into())
     });
     Ok(count? as u64)
+}
+
+/// The cell of a frame, whose middle is the origin; `None` in a file without a box. In two dimensions it does not repeat
+/// along z.
+fn cell(input: &mut Input<'_>, file: &File, frame: u64) -> Result<Option<ToldCell>, TableError> {
+    const BOX: &str = "configuration/box";
+    const DIMENSIONS: &str = "configuration/dimensions";
+    let mut numbers = |name: &str, count: u64| -> Result<Option<Vec<f64>>, TableError> {
+        let chunk = file.chunk(frame, name).or_else(|| file.chunk(0, name));
+        let Some(chunk) = chunk.filter(|chunk| chunk.rows == count && chunk.size == 1) else {
+            return Ok(None);
+        };
+        let bytes = chunk.take(input, (0, count))?;
+        let numbers = bytes.chunks((chunk.kind.size() as usize).max(1));
+        Ok(numbers.map(|bytes| chunk.kind.decode(bytes)).collect())
+    };
+    let of_box = numbers(BOX, 6)?;
+    let dimensions = numbers(DIMENSIONS, 1)?;
+    let Some(&[x, y, z, xy, xz, yz]) = of_box.as_deref() else {
+        return Ok(None);
+    };
+    let is_flat = dimensions.is_some_and(|dimensions| dimensions == [2.0]);
+    // The box of a plane may have no height.
+    let z = if is_flat && z == 0.0 { 1.0 } else { z };
+    let edges = DMat3::from_cols(
+        DVec3::new(x, 0.0, 0.0),
+        DVec3::new(xy * y, y, 0.0),
+        DVec3::new(xz * z, yz * z, z),
+    );
+    let cell = Cell::new(edges, edges * DVec3::splat(-0.5));
+    let cell = cell.map(|cell| cell.periodic_along([true, true, !is_flat]));
+    Ok(Some(cell.map_err(|fault| {
+        LocatedFault::of_file(format!("{fault} in the chunk `{BOX}`"))
+    })))
 }
 
 /// The arrays of a frame of so many particles: first the positions and the names of the types.
@@ -184,7 +231,7 @@ fn array<'f>(
             return Ok(None);
         }
         return Ok(Some(Array {
-            names: components(name, chunk.size),
+            names: names_of(name, chunk.size),
             kind: chunk.kind,
             source: Source::Chunk(chunk),
         }));
@@ -197,7 +244,7 @@ fn array<'f>(
             _ => (*value as f32).to_le_bytes(),
         };
         return Ok(Some(Array {
-            names: components(name, values.len() as u64),
+            names: names_of(name, values.len() as u64),
             kind: Kind::little(*number),
             source: Source::Constant(values.iter().flat_map(bytes).collect()),
         }));
@@ -207,10 +254,18 @@ fn array<'f>(
     Ok(size
         .filter(|size| *size <= MOST_COLUMNS as u64)
         .map(|size| Array {
-            names: components(name, size),
+            names: names_of(name, size),
             kind: Kind::little(Number::F64),
             source: Source::Constant(f64::NAN.to_le_bytes().repeat(size as usize)),
         }))
+}
+
+/// The names of a chunk's columns; image flags have the names that they have in dumps.
+fn names_of(name: &str, size: u64) -> Vec<String> {
+    match (name, size) {
+        ("image", 3) => IMAGES.map(String::from).into(),
+        _ => components(name, size),
+    }
 }
 
 /// The names of the types.

@@ -5,6 +5,8 @@ use super::*;
 
 /// Three frames: the first has every kind of chunk, the second leaves all but positions to it, the third has other particles.
 pub(super) const FRAMES: &[u8] = include_bytes!("../../../../../tests/seeds/tables/frames.gsd");
+/// A tilted box, and one of a plane without a height, both with image flags.
+const BOXES: &[u8] = include_bytes!("../../../../../tests/seeds/tables/boxes.gsd");
 /// Positions alone.
 const PLAIN: &[u8] = include_bytes!("../../../../../tests/seeds/tables/plain.gsd");
 
@@ -90,6 +92,49 @@ fn particles_of_all_frames_are_read() {
     assert!(plain.len() == 1 && plain[0].spheres.iter().all(|sphere| sphere.radius() == 0.5));
 }
 
+/// The edges of the boxes are (4, 0, 0), (0.5 · 3, 3, 0) and, of the first, (0.25 · 2, −0.5 · 2, 2).
+#[test]
+fn boxes_are_cells() {
+    let shown = |fields: &str, frame: i32| {
+        let folder = Folder::new();
+        fs::write(folder.0.join("a.gsd"), BOXES).unwrap();
+        let text = format!(
+            "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(),
+             clouds: [(file: \"a.gsd\", frames: All, right_handed: false, {fields})])"
+        );
+        let scene = Scene::parse(&text, &folder.0.join("scene.ron")).unwrap();
+        let world = scene.world_at(frame).unwrap();
+        let centers = world
+            .spheres()
+            .iter()
+            .map(|sphere| sphere.center().to_array());
+        centers.collect::<Vec<_>>()
+    };
+    // (1, 1, 0.5) in the cell (1, 0, −1), and (−2.5, −1, −0.75) in (0, −2, 0).
+    assert_eq!(
+        shown("unwrap: true", 1),
+        [[4.5, 2.0, -1.5], [-5.5, -7.0, -0.75]]
+    );
+    assert_eq!(
+        shown("unwrap: true", 2),
+        [[5.0, 1.0, 0.0], [-5.5, -7.0, 0.0]]
+    );
+    assert_eq!(
+        shown("repeat: (1, 1, 2)", 1),
+        [
+            [1.0, 1.0, 0.5],
+            [-2.5, -1.0, -0.75],
+            [1.5, 0.0, 2.5],
+            [-2.0, -2.0, 1.25]
+        ]
+    );
+    // Both are in the box around the origin already.
+    let inside = [[1.0, 1.0, 0.5], [-2.5, -1.0, -0.75]];
+    assert_eq!(shown("wrap: true", 1), inside);
+    let refused = refusal("a.gsd", file(&[[0.0; 3]], 1), "repeat: (2, 1, 1)");
+    assert!(refused.contains("a cell"), "{refused}");
+}
+
 #[test]
 fn what_a_frame_leaves_out_is_that_of_the_first_or_the_default() {
     let column = |name: &str, coloring| {
@@ -116,7 +161,7 @@ fn what_a_frame_leaves_out_is_that_of_the_first_or_the_default() {
         [velocity.clone(), velocity, vec![0.0; 7]]
     );
     let image = vec![0.0, -1.0, -2.0, -3.0, -4.0];
-    assert_eq!(numbers("image_3"), [image.clone(), image, vec![0.0; 7]]);
+    assert_eq!(numbers("iz"), [image.clone(), image, vec![0.0; 7]]);
     let typeid = vec![0.0, 1.0, 2.0, 0.0, 1.0];
     assert_eq!(numbers("typeid"), [typeid.clone(), typeid, vec![0.0; 7]]);
     let energy = numbers("log/particles/energy");
