@@ -51,6 +51,10 @@ impl Periodic {
     /// Adds the images of all spheres behind those that there are, whose faces are given if they matter.
     fn add_images(self, rows: &mut Rows, cell: &Cell, faces: &[Faces]) -> Result<(), TableError> {
         let count = rows.spheres.len();
+        if count == 0 {
+            // Any number of repeats shows nothing.
+            return Ok(());
+        }
         let total = match self.shows_edges {
             true => faces.iter().map(|faces| self.images(*faces)).sum(),
             false => count as u128 * self.images(Faces::default()),

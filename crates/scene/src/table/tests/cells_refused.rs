@@ -126,3 +126,15 @@ fn more_cells_than_can_be_shown_are_refused() {
     let far = "1\nLattice=\"1e308 0 0 0 1e308 0 0 0 1e308\"\nC 1 2 3\n";
     assert!(load("a.xyz", far, "repeat: (9, 1, 1)").is_err());
 }
+
+/// Without a sphere there is nothing to repeat, however often.
+#[test]
+fn an_empty_table_is_repeated_at_once() {
+    let text = "1\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=species:S:1:pos:R:3\nC 0 0 0\n";
+    let many = "repeat: (100000, 100000, 100000), keep: [(\"species\", Is(\"H\"))]";
+    for fields in [many, &format!("{many}, edges: true")] {
+        let scene = load("a.xyz", text, &format!("radius: 1, {fields}"));
+        let is_empty = scene.is_ok_and(|scene| scene.world().spheres().is_empty());
+        assert!(is_empty, "{fields}");
+    }
+}
