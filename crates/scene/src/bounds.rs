@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use marbles_core::Sphere;
-use rayon::prelude::*;
+
+use crate::parallel;
 
 /// The box around spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,8 +28,9 @@ impl Bounds {
                 high: sphere.center() + reach,
             }
         };
-        let boxes = spheres.par_iter().map(of_sphere);
-        boxes.reduce_with(Self::around).unwrap_or(Self::NONE)
+        let around = |boxes: Self, sphere: &Sphere| boxes.around(of_sphere(sphere));
+        let boxes = parallel::map_pieces(spheres, |piece| piece.iter().fold(Self::NONE, around));
+        boxes.into_iter().fold(Self::NONE, Self::around)
     }
 
     /// The box around both.

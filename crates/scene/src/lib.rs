@@ -30,6 +30,7 @@ mod bounds;
 mod figure;
 mod file;
 mod motion;
+mod parallel;
 mod report;
 mod scene;
 mod table;

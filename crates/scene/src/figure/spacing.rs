@@ -1,7 +1,8 @@
 //! The typical distance between neighboring points, from which spheres without radii get one.
 
 use marbles_core::Sphere;
-use rayon::prelude::*;
+
+use crate::parallel;
 
 /// The radius of spheres without one, as a share of the typical distance to the nearest neighbor. Spheres at this
 /// distance leave a small gap.
@@ -27,7 +28,9 @@ pub(super) fn radius(spheres: &[Sphere]) -> f64 {
         let apart = squares.filter(|square| *square > 0.0);
         apart.fold(f64::INFINITY, f64::min).sqrt()
     };
-    let mut distances: Vec<f64> = spheres.par_iter().step_by(step).map(nearest).collect();
+    let mut distances: Vec<f64> = parallel::map(count.div_ceil(step), |index| {
+        nearest(&spheres[index * step])
+    });
     distances.retain(|distance| distance.is_finite());
     distances.sort_unstable_by(f64::total_cmp);
     let median = distances.get(distances.len() / 2);

@@ -20,9 +20,9 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{Angle, Camera, Lens, Sphere};
-use rayon::prelude::*;
 
 use crate::bounds::Bounds;
+use crate::parallel;
 
 /// The axes of an orbiting camera with this azimuth, elevation and roll in degrees, in the world.
 pub(crate) fn axes_of_orbit(degrees: [f64; 3]) -> DMat3 {
@@ -170,7 +170,11 @@ fn needed(spheres: &[Sphere], target: DVec3, sides: &[Side], turning: Turning) -
         let distance = |side: &Side| side.distance(from_target, sphere.radius(), turning);
         sides.iter().map(distance).fold(f64::NEG_INFINITY, f64::max)
     };
-    spheres.par_iter().map(of_sphere).reduce_with(f64::max)
+    let of_pieces = parallel::map_pieces(spheres, |piece| {
+        let of_spheres = piece.iter().map(of_sphere);
+        of_spheres.reduce(f64::max)
+    });
+    of_pieces.into_iter().flatten().reduce(f64::max)
 }
 
 /// A side of the picture.

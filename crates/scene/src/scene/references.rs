@@ -6,9 +6,9 @@
 
 use glam::DVec3;
 use marbles_core::Sphere;
-use rayon::prelude::*;
 
 use super::Scene;
+use crate::parallel;
 use crate::report::SceneError;
 
 impl Scene {
@@ -33,10 +33,12 @@ impl Scene {
 /// The median of the distances from a point to the surfaces of spheres, the lower one of two; `None` where all are 0.
 fn median_distance(spheres: &[Sphere], point: DVec3) -> Option<f64> {
     let distance = |sphere: &Sphere| ((sphere.center() - point).length() - sphere.radius()).abs();
-    let distances = spheres.par_iter().map(distance);
-    let mut distances: Vec<f64> = distances
-        .filter(|&distance| distance > 0.0 && distance.is_finite())
-        .collect();
+    let mut distances = vec![0.0; spheres.len()];
+    parallel::change_all(&mut distances, |index, of_sphere| {
+        *of_sphere = distance(&spheres[index]);
+        true
+    });
+    distances.retain(|&distance| distance > 0.0 && distance.is_finite());
     let middle = distances.len().checked_sub(1)? / 2;
     let (_, median, _) = distances.select_nth_unstable_by(middle, f64::total_cmp);
     Some(*median)

@@ -3,8 +3,6 @@
 use std::borrow::Cow;
 use std::io::{ErrorKind, Read};
 
-use rayon::prelude::*;
-
 use super::array::Column;
 pub(crate) use super::columns::plan_of_kinds as plan;
 use super::columns::{Plan, Slot, Test};
@@ -15,6 +13,7 @@ use super::input::Input;
 use super::kind::Kind;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows};
+use crate::parallel;
 use crate::text::{LocatedFault, Place, show};
 
 /// The arrangement of the values of a table.
@@ -297,8 +296,8 @@ impl Block<'_> {
     /// Adds all rows, decoded on the threads of the current rayon pool: they do not depend on the thread that
     /// decodes a piece.
     fn decode_all(&self, rows: &mut Rows) -> Result<(), TableError> {
-        let starts = (0..self.count).into_par_iter().step_by(PIECE);
-        let pieces: Vec<_> = starts.map(|start| self.decode(start)).collect();
+        let count = self.count.div_ceil(PIECE);
+        let pieces = parallel::map(count, |index| self.decode(index * PIECE));
         pieces.into_iter().try_for_each(|piece| rows.append(piece?))
     }
 

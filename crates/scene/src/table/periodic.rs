@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 use marbles_core::Sphere;
-use rayon::prelude::*;
 
 use super::cell::Cell;
 use super::error::TableError;
 use super::paint::Paint;
 use super::request::Periodic;
 use super::rows::Rows;
+use crate::parallel;
 
 /// The distance from a face at which a sphere lies on it, as a share of the edge that leads to the face.
 const ON_FACE: f64 = 1e-3;
@@ -147,7 +147,7 @@ fn wrap(spheres: &mut [Sphere], cell: &Cell) -> Result<(), TableError> {
         let moved = Sphere::new(center, sphere.radius());
         moved.map(|moved| *sphere = moved).is_ok()
     };
-    match spheres.par_iter_mut().all(moved) {
+    match parallel::change_all(spheres, |_, sphere| moved(sphere)) {
         true => Ok(()),
         false => Err(not_finite()),
     }

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::columns::{Plan, Slot, Test, Uses};
 use super::elements::Atom;
 use super::error::TableError;
@@ -15,6 +13,7 @@ use super::remarks::place_in_line;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows};
 use super::time;
+use crate::parallel;
 use crate::text::{LocatedFault, Place};
 
 /// About how many bytes of text are one piece of work.
@@ -51,10 +50,9 @@ pub(crate) fn read(
         window = window.saturating_mul(4);
         let bytes = block.len();
         let pieces: Vec<&[u8]> = pieces(block).collect();
-        let pieces: Vec<Piece> = pieces
-            .into_par_iter()
-            .map(|text| read_piece(text, plan, form, count.is_some()))
-            .collect();
+        let pieces: Vec<Piece> = parallel::map(pieces.len(), |index| {
+            read_piece(pieces[index], plan, form, count.is_some())
+        });
         let is_telling = count.is_some() || bytes >= TELLING;
         if !is_reserved
             && is_telling

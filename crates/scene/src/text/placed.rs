@@ -64,20 +64,23 @@ impl<'de, T: Read<'de>> Deserialize<'de> for Placed<T> {
         if fault::is_strict() {
             return T::read_strictly(deserializer).map(|value| Self { place: 0..0, value });
         }
-        let raw = raw_text(deserializer)?;
-        // The raw value comes with the comments around it.
-        let start = token::skip_trivia(raw, 0);
-        let end = if raw.contains('/') {
-            token::value_end(raw, start)
-        } else {
-            raw.trim_end_matches(token::is_white_space).len()
-        };
-        let slice = Slice::of_text_being_read(&raw[start..end]);
+        let slice = without_trivia(raw_text(deserializer)?);
         Ok(Self {
             place: slice.place(),
             value: T::read(slice),
         })
     }
+}
+
+/// A raw value without the white space and the comments around it.
+fn without_trivia(raw: &str) -> Slice<'_> {
+    let start = token::skip_trivia(raw, 0);
+    let end = if raw.contains('/') {
+        token::value_end(raw, start)
+    } else {
+        raw.trim_end_matches(token::is_white_space).len()
+    };
+    Slice::of_text_being_read(&raw[start..end])
 }
 
 /// The result of `make` for a field that may be left out; `None` where a fault was reported.

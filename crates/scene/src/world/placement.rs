@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DVec3};
 use marbles_core::{Angle, Sphere};
-use rayon::prelude::*;
 
 use crate::bounds::Bounds;
 use crate::file::Up;
+use crate::parallel;
 
 /// The steps by which a cloud is placed.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ impl Placement {
         if is_right_handed {
             axes.z = -axes.z;
         }
-        spheres.par_iter_mut().all(|sphere| {
+        parallel::change_all(spheres, |_, sphere| {
             let mut center = (sphere.center() - middle) * axes;
             // A quarter turn about x, by which z of the table becomes y: no picture is mirrored.
             center = match (self.up, is_right_handed) {

@@ -1,7 +1,8 @@
 //! The distance of what a camera sees.
 
 use marbles_core::{Ray, Sphere, View};
-use rayon::prelude::*;
+
+use crate::parallel;
 
 /// The number of columns of rays in the middle of the picture.
 const COLUMNS: u32 = 9;
@@ -29,8 +30,11 @@ fn median(view: &View, spheres: &[Sphere], part: f64) -> Option<f64> {
         .collect();
     let camera = &view.camera;
     let nearest = |ray: &Ray| {
-        let hits = spheres.par_iter().filter_map(|sphere| hit(ray, sphere));
-        let nearest = hits.reduce_with(f64::min)?;
+        let hits = parallel::map_pieces(spheres, |piece| {
+            let hits = piece.iter().filter_map(|sphere| hit(ray, sphere));
+            hits.reduce(f64::min)
+        });
+        let nearest = hits.into_iter().flatten().reduce(f64::min)?;
         let from_camera = ray.origin + nearest * ray.direction - camera.position;
         Some(from_camera.dot(camera.forward()))
     };

@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 use marbles_core::Albedos;
-use rayon::prelude::*;
 
 use crate::file::{self, ColorScale, OTHERS_COLOR};
+use crate::parallel;
 use crate::table::{self, Categories, Colormap, Missing, Paint, ValueRange};
 use crate::text::{optional, refuse};
 use crate::values::{Flag, from_srgb};
@@ -256,14 +256,12 @@ impl Scale {
                 true => missing,
                 false => colors[usize::from(index(value))],
             };
-            let each = values
-                .par_iter()
-                .map(|value| color(value).as_vec3().to_array());
-            return Ok(Albedos::Each(each.collect()));
+            let each = each(values, |value| color(value).as_vec3().to_array());
+            return Ok(Albedos::Each(each));
         }
         Ok(Albedos::Palette {
             colors,
-            indices: values.par_iter().map(index).collect(),
+            indices: each(values, index),
         })
     }
 
@@ -343,12 +341,21 @@ impl Scale {
             .iter()
             .map(|name| index.get(name).copied().unwrap_or(0))
             .collect();
-        let indices = categories.indices.par_iter();
         Albedos::Palette {
             colors,
-            indices: indices.map(|index| names[*index as usize]).collect(),
+            indices: each(&categories.indices, |index| names[*index as usize]),
         }
     }
+}
+
+/// What `of` makes of each value.
+fn each<T: Sync, U: Clone + Default + Send>(values: &[T], of: impl Fn(&T) -> U + Sync) -> Vec<U> {
+    let mut made = vec![U::default(); values.len()];
+    parallel::change_all(&mut made, |index, made| {
+        *made = of(&values[index]);
+        true
+    });
+    made
 }
 
 /// The most colors that a scene file gives to categories: with those of `PALETTE` no more than a byte counts.
