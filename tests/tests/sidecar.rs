@@ -100,7 +100,7 @@ fn opencv_projects_spheres_to_where_the_picture_has_them() {
             let ray = view.ray(view.cell_center(col.into(), row.into(), CELLS));
             let point = ray.at(distance / ray.direction.length());
             let [x, y, z] = point.to_array();
-            let radius = RADIUS * distance * view.pixel_size() / (view.lens.distance * view.zoom);
+            let radius = RADIUS * distance * view.pixel_size().x / (view.lens.distance * view.zoom);
             spheres.push_str(&format!("(center: ({x}, {y}, {z}), radius: {radius}), "));
             table.push_str(&format!("{x},{y},{z},{radius}\n"));
         }

@@ -71,6 +71,7 @@ fn view(random: &mut Random) -> View {
         width: 0.3 + 4.0 * random.number(),
         distance: 1.0,
         shift,
+        pixel_aspect: 1.0,
     };
     View {
         camera,

@@ -20,6 +20,7 @@ fn view() -> View {
             width: 3.0,
             distance: 2.0,
             shift: DVec2::new(0.2, -0.1),
+            pixel_aspect: 1.0,
         },
         zoom: 1.3,
         width: 90,

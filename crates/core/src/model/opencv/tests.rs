@@ -20,6 +20,7 @@ fn view(camera: Camera) -> View {
             width: 3.0,
             distance: 2.5,
             shift: DVec2::new(0.4, -0.7),
+            pixel_aspect: 1.0,
         },
         zoom: 1.7,
         width: 640,

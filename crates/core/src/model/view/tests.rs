@@ -10,6 +10,7 @@ fn view() -> View {
             width: 8.0,
             distance: 10.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: 4,

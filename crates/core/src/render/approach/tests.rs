@@ -28,6 +28,7 @@ fn view(width: u32) -> View {
             width: 1.0,
             distance: 1.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width,

@@ -22,6 +22,7 @@ fn view(random: &mut Random) -> (View, Tile) {
         width: 0.1 + 2.0 * random.number(),
         distance: 1.0,
         shift: DVec2::new(random.number() - 0.5, random.number() - 0.5),
+        pixel_aspect: 1.0,
     };
     let view = View {
         camera,

@@ -33,6 +33,7 @@ fn facts() -> Facts {
                 width: 6.0,
                 distance: 4.0,
                 shift: DVec2::new(0.5, -1.0),
+                pixel_aspect: 1.0,
             },
             zoom: 2.0,
             ..view()

@@ -53,6 +53,7 @@ impl Place {
                 width: of_pixel,
                 distance: if is_parallel { f64::INFINITY } else { 1.0 },
                 shift,
+                pixel_aspect: 1.0,
             },
             zoom: 1.0,
             width: 1,
