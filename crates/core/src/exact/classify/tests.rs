@@ -206,7 +206,7 @@ fn occluders_are_all_spheres_that_matter() {
         for _ in 0..20 {
             let tile = Cell {
                 middle: (random.point() * 0.4).with_z(1.0),
-                size: [magnitude(&mut random, 1e-3, 0.3); 2],
+                size: [0; 2].map(|_| magnitude(&mut random, 1e-3, 0.3)),
                 projection: crate::model::camera::Projection::Central,
             };
             let mut cache = OccluderCache::new(tile, tile.size[0] / 8.0);
