@@ -72,7 +72,7 @@ fn the_normals_of_a_ball_have_closed_means() {
     };
     for tolerance in [1e-2, 1e-4, 1e-7] {
         let found = means(&world, &view, &settings(Axes::World, tolerance));
-        let pixel = view.pixel_size();
+        let pixel = view.pixel_size().x;
         let (mut area, mut normal, mut claimed) = (0.0, DVec3::ZERO, 0.0);
         let mut filled = 0;
         for place in 0..(SIDE * SIDE) as usize {
@@ -148,6 +148,7 @@ fn heap() -> (World, View) {
             width: 4.0,
             distance: 5.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: SIDE,

@@ -83,6 +83,7 @@ fn view(change: Change) -> View {
         width: 1.5 * change.length,
         distance: 1.1 * change.length,
         shift: DVec2::new(change.x_sign * 0.1, -0.05) * change.length,
+        pixel_aspect: 1.0,
     };
     View {
         camera,

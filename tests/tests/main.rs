@@ -30,6 +30,7 @@ mod point_lights;
 mod previews;
 mod promise;
 mod python;
+mod rectangular_pixels;
 mod reference;
 mod refused;
 mod repeatability;

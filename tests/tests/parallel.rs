@@ -44,7 +44,7 @@ fn world(spheres: &[(DVec3, f64)], toward: DVec3) -> World {
 
 /// Sums of a picture and of its claims, in scene units squared: light and coverage.
 fn sums(image: &Image, view: &View) -> (f64, f64, f64) {
-    let area = view.pixel_size() * view.pixel_size();
+    let area = view.pixel_size().element_product();
     let (mut light, mut covered, mut claimed) = (0.0, 0.0, 0.0);
     for row in 0..SIDE {
         for col in 0..SIDE {

@@ -11,8 +11,8 @@ use marbles_scene::Scene;
 use crate::python;
 use crate::studio::picture;
 
-/// Lenses, cameras and zooms: shifted, panned, tilted, rolled.
-const CAMERAS: [[&str; 3]; 3] = [
+/// Lenses, cameras and zooms: shifted, panned, tilted, rolled, with rectangular pixels.
+const CAMERAS: [[&str; 3]; 4] = [
     [
         "Retina(width: 3, distance: 4, shift: (0.3, -0.2))",
         "Free(position: (1, 2, -3), pan: 25, tilt: -17, roll: 40)",
@@ -27,6 +27,12 @@ const CAMERAS: [[&str; 3]; 3] = [
         "Fov(20)",
         "Orbit(target: (0, 1, 0), radius: 40, azimuth: 200, elevation: 35)",
         "0.5",
+    ],
+    // Pixels that are not square.
+    [
+        "Matrix(fx: 520.5, fy: 468.25, cx: 150.25, cy: 131)",
+        "Free(position: (1, 2, -3), pan: 25, tilt: -17, roll: 40)",
+        "1",
     ],
 ];
 
@@ -100,7 +106,7 @@ fn opencv_projects_spheres_to_where_the_picture_has_them() {
             let ray = view.ray(view.cell_center(col.into(), row.into(), CELLS));
             let point = ray.at(distance / ray.direction.length());
             let [x, y, z] = point.to_array();
-            let radius = RADIUS * distance * view.pixel_size() / (view.lens.distance * view.zoom);
+            let radius = RADIUS * distance * view.pixel_size().x / (view.lens.distance * view.zoom);
             spheres.push_str(&format!("(center: ({x}, {y}, {z}), radius: {radius}), "));
             table.push_str(&format!("{x},{y},{z},{radius}\n"));
         }

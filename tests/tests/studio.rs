@@ -48,6 +48,7 @@ pub(crate) fn looking_forward(width: u32, height: u32, distance: f64) -> View {
             width: f64::from(width),
             distance,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width,
@@ -59,7 +60,7 @@ pub(crate) fn looking_forward(width: u32, height: u32, distance: f64) -> View {
 /// The view whose only pixel is pixel (col, row) of `view`.
 pub(crate) fn single_pixel(view: &View, col: u32, row: u32) -> View {
     let center = view.cell_center(u64::from(col), u64::from(row), 1);
-    around_retina_point(view, center, view.pixel_size())
+    around_retina_point(view, center, view.pixel_size().x)
 }
 
 /// The view whose only pixel is the square of side `size` around a point of `view`'s retina.

@@ -152,7 +152,7 @@ fn smooth_pixels_are_within_their_claims_though_the_view_turns() {
     for _ in 0..PLACES {
         let place = Place::new(&mut random);
         let view = place.view();
-        let side = view.pixel_size() / view.magnification();
+        let side = view.pixel_size().x / view.magnification();
         let images = TOLERANCES.map(|tolerance| place.image(tolerance));
         for (col, row) in pixels(&images[0]) {
             let middle = view.cell_center(u64::from(col), u64::from(row), 1) / view.magnification();

@@ -72,6 +72,18 @@ camera      Free: x 0, y 0, z 0
     );
 }
 
+#[test]
+fn check_tells_the_shape_of_rectangular_pixels() {
+    let path = temporary("rectangles.ron");
+    let scene = "(image: (width: 64, height: 48), lens: Matrix(fx: 80, fy: 100, cx: 31.5, cy: 23.5), camera: Free())";
+    std::fs::write(&path, scene).unwrap();
+    let (code, out, _) = run_here(&["check", path.to_str().unwrap()]);
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(code, 0);
+    let lens = "retina 64 wide at distance 80, 43.6028° across, pixels 1.25 times as wide as high";
+    assert!(out.contains(lens), "{out}");
+}
+
 /// Seventeen lights make three groups, and their bumps are too fine. The summary counts the same pixels as the core,
 /// and the exit code is 3.
 #[test]

@@ -121,7 +121,7 @@ pub fn single_pixel(view: &View, col: u32, row: u32) -> View {
     let center = view.cell_center(u64::from(col), u64::from(row), 1);
     View {
         lens: Lens {
-            width: view.pixel_size(),
+            width: view.pixel_size().x,
             shift: center,
             ..view.lens
         },

@@ -54,7 +54,9 @@ impl Stage<'_> {
         if ball.has_eye_inside() || ball.cut_radius().is_some() {
             return None;
         }
-        let pixel = self.view.lens.width / (f64::from(self.view.width) * self.view.zoom);
+        // The side of a square with the area of a pixel.
+        let [width, height] = sides(&self.view);
+        let pixel = (width * height).sqrt() / self.view.zoom;
         let width = match (outline.width, self.forward) {
             (OutlineWidth::Units(width), _) => width,
             (OutlineWidth::Pixels(width), Some(_)) => width * pixel,
@@ -82,6 +84,12 @@ impl Stage<'_> {
             self.forward,
         ))
     }
+}
+
+/// The width and the height of a pixel on the retina.
+fn sides(view: &View) -> [f64; 2] {
+    let width = view.lens.width / f64::from(view.width);
+    [width, width / view.lens.pixel_aspect]
 }
 
 /// A part of a pixel: the directions `origin + s · right + t · up` for s and t in the given ranges, which are within
@@ -122,7 +130,7 @@ impl Candidate {
 impl<'stage> Patch<'stage> {
     pub(crate) fn of_pixel(stage: &'stage Stage<'stage>, col: u32, row: u32, goal: f64) -> Self {
         let view = &stage.view;
-        let mut pixel = view.lens.width / f64::from(view.width);
+        let mut pixel = DVec2::from_array(sides(view));
         let from_middle = DVec2::new(
             f64::from(col) + 0.5 - 0.5 * f64::from(view.width),
             0.5 * f64::from(view.height) - 0.5 - f64::from(row),
@@ -135,7 +143,7 @@ impl<'stage> Patch<'stage> {
             let DVec2 { x, y } = center / view.zoom;
             origin = axes.x_axis * x + axes.y_axis * y;
         }
-        let (right, up) = (axes.x_axis * pixel, axes.y_axis * pixel);
+        let (right, up) = (axes.x_axis * pixel.x, axes.y_axis * pixel.y);
         let key = (col, row, view.frame);
         let half = DVec2::splat(0.5);
         Self::new(stage, key, [origin, right, up], (-half, half), goal)
@@ -155,19 +163,19 @@ impl<'stage> Patch<'stage> {
 
     /// The point of the pixel's plane in a direction, if it is in front; with parallel rays, the projection of a point.
     pub(crate) fn project(&self, direction: DVec3) -> Option<DVec2> {
-        let pixel_sq = self.right.length_squared();
+        let parts = |offset: DVec3| {
+            let [right, up] = [self.right, self.up].map(|side| side / side.length_squared());
+            DVec2::new(offset.dot(right), offset.dot(up))
+        };
         if self.stage.forward.is_some() {
-            let offset = direction - self.origin;
-            return Some(DVec2::new(offset.dot(self.right), offset.dot(self.up)) / pixel_sq);
+            return Some(parts(direction - self.origin));
         }
         let normal = self.right.cross(self.up);
         let scale = self.origin.dot(normal) / direction.dot(normal);
         if !(scale > 0.0 && scale.is_finite()) {
             return None;
         }
-        let offset = direction * scale - self.origin;
-        let point = DVec2::new(offset.dot(self.right), offset.dot(self.up)) / pixel_sq;
-        Some(point)
+        Some(parts(direction * scale - self.origin))
     }
 
     fn new(
@@ -210,7 +218,7 @@ impl<'stage> Patch<'stage> {
                 origin.length() + far
             }
         };
-        let pixel = right.length() / size;
+        let pixel = right.length().min(up.length()) / size;
         let ratio = |ball: &Ball| ball.center.length() / ball.radius;
         let ratios = patch
             .candidates
@@ -224,11 +232,12 @@ impl<'stage> Patch<'stage> {
         let Some(forward) = self.stage.forward else {
             return Beam::Cone(self.cone());
         };
-        let size = (self.high - self.low).x * self.right.length();
+        let size = self.high - self.low;
+        let diagonal = self.right * size.x + self.up * size.y;
         Beam::Cylinder(Cylinder {
             middle: self.direction(0.5 * (self.low + self.high)),
             forward,
-            radius: size * (1.0 + SLACK) * std::f64::consts::FRAC_1_SQRT_2,
+            radius: 0.5 * diagonal.length() * (1.0 + SLACK),
         })
     }
 

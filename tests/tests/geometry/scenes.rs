@@ -31,6 +31,7 @@ pub(super) fn view(position: DVec3, [pan, tilt, roll]: [f64; 3], width: f64) -> 
             width,
             distance: 0.7,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0 / 0.7,
         width: SIDE,

@@ -134,8 +134,8 @@ fn views(scene: &Scene, frames: &RangeInclusive<i32>) -> (Vec<View>, Vec<FrameEr
 fn lens(view: &View) -> String {
     let lens = view.lens;
     let mut text = if lens.is_parallel() {
-        let (_, width) = view.screen_window();
-        format!("parallel rays, {} across", short(width))
+        let (_, size) = view.screen_window();
+        format!("parallel rays, {} across", short(size.x))
     } else {
         let half_angle = libm::atan(0.5 * lens.width / (lens.distance * view.zoom));
         format!(
@@ -148,6 +148,10 @@ fn lens(view: &View) -> String {
     if lens.shift != DVec2::ZERO {
         let (right, up) = (short(lens.shift.x), short(lens.shift.y));
         text.push_str(&format!(", shifted by ({right}, {up})"));
+    }
+    if lens.pixel_aspect != 1.0 {
+        let aspect = short(lens.pixel_aspect);
+        text.push_str(&format!(", pixels {aspect} times as wide as high"));
     }
     text
 }

@@ -21,7 +21,7 @@ const MARGIN: f64 = 16.0;
 /// Refuses a camera with perspective that has no target in front of it.
 pub(super) fn draw(scene: &Scene, frame: i32, view: &View, path: &Path) -> Result<Svg, Failure> {
     let (pixels, place) = if view.lens.is_parallel() {
-        (view.pixels_per_unit(), String::new())
+        (view.pixels_per_unit().x, String::new())
     } else {
         let target = scene.target_at(frame).ok_or_else(|| {
             let why = "--scale-bar: with perspective, the bar is valid at the distance of the camera's target, \
@@ -34,7 +34,7 @@ pub(super) fn draw(scene: &Scene, frame: i32, view: &View, path: &Path) -> Resul
             return Err(Failure::unusable(path, why));
         }
         let place = format!(" at the target, {} away", short(distance));
-        (view.pixels_per_unit() / distance, place)
+        (view.pixels_per_unit().x / distance, place)
     };
     let when = match scene.frames() {
         Some(frames) if changes(scene, &frames, pixels, view) => format!(", frame {frame}"),
@@ -71,7 +71,7 @@ fn changes(
     let of = |frame: i32| {
         let view = scene.view(frame).ok()?;
         let size = f64::from(shown.width) / f64::from(view.width);
-        let pixels = size * view.pixels_per_unit();
+        let pixels = size * view.pixels_per_unit().x;
         if view.lens.is_parallel() {
             return Some(pixels);
         }

@@ -131,6 +131,7 @@ pub(crate) fn view() -> View {
             width: 0.6,
             distance: 1.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: 23,

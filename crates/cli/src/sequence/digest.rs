@@ -300,6 +300,7 @@ impl Feed {
                     width: retina_width,
                     distance,
                     shift: DVec2 { x, y },
+                    pixel_aspect,
                 },
             zoom,
             width,
@@ -309,6 +310,11 @@ impl Feed {
         self.camera(&camera);
         for number in [retina_width, distance, x, y, zoom] {
             self.number(number);
+        }
+        // Pictures with square pixels have the digests that they had before there were others.
+        if pixel_aspect != 1.0 {
+            self.0.update(b"pixel aspect");
+            self.number(pixel_aspect);
         }
         self.integer(width);
         self.integer(height);

@@ -174,6 +174,10 @@ fn what_a_data_set_of_near_lights_cannot_tell_is_refused() {
             "the lens of the scene has none",
         ),
         (
+            scene.replace("Fov(40)", "Matrix(fx: 30, fy: 40, cx: 9, cy: 9)"),
+            "but the lens of the scene has two: fx 30 and fy 40",
+        ),
+        (
             scene.replace("pan: 90", "pan: -90"),
             "no pixel sees a sphere",
         ),

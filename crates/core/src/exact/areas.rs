@@ -210,8 +210,8 @@ impl<'scene> Areas<'scene> {
             width: 1,
             height: 1,
         };
-        let side = context.cell(pixel(0, 0)).size[0];
-        let mut cache = OccluderCache::new(context.cell(tile), side);
+        let [width, height] = context.cell(pixel(0, 0)).size;
+        let mut cache = OccluderCache::new(context.cell(tile), width.min(height));
         let mut crowds = CrowdWork::new(u64::MAX);
         for row in 0..tile.height {
             for left in (0..tile.width).step_by(8) {

@@ -19,6 +19,40 @@ use crate::picture::tile::Tile;
 /// The share of the tolerance below which light does not count. Not tuned.
 pub(crate) const NEGLIGIBLE: f64 = 0.01;
 
+/// The sides of a pixel on the retina at distance 1; for parallel rays at any.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sides {
+    pub(crate) width: f64,
+    /// The height over the width. It multiplies what is then multiplied by the width: if it is 1, as for square pixels,
+    /// nothing is rounded for it.
+    pub(crate) height_by_width: f64,
+}
+
+impl Sides {
+    /// Width and height.
+    #[inline(always)]
+    pub(crate) fn both(&self) -> [f64; 2] {
+        [self.width, self.width * self.height_by_width]
+    }
+
+    #[inline(always)]
+    pub(crate) fn shorter(&self) -> f64 {
+        self.width * self.height_by_width.min(1.0)
+    }
+
+    #[inline(always)]
+    pub(crate) fn longer(&self) -> f64 {
+        self.width * self.height_by_width.max(1.0)
+    }
+
+    /// Half of the diagonal.
+    #[inline(always)]
+    pub(crate) fn half_diagonal(&self) -> f64 {
+        let ratio = self.height_by_width;
+        self.width * (0.5 * (1.0 + ratio * ratio).sqrt())
+    }
+}
+
 /// A view of a scene, and how exactly its pixels are asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Context<'scene> {
@@ -59,8 +93,8 @@ impl Context<'_> {
         Cell {
             middle: (0.5 * (first + last)).extend(1.0),
             size: [
-                pixel * f64::from(tile.width),
-                pixel * f64::from(tile.height),
+                pixel.x * f64::from(tile.width),
+                pixel.y * f64::from(tile.height),
             ],
             projection: self.scene.projection,
         }
@@ -122,10 +156,9 @@ impl Context<'_> {
         }
     }
 
-    /// The rays through the middles of eight pixels of a row, and the side of a pixel on the
-    /// retina at distance 1.
+    /// The rays through the middles of eight pixels of a row, and the sides of a pixel.
     #[inline(always)]
-    pub(crate) fn rays<S: Simd>(&self, simd: S, start: Tile) -> (Vectors<S>, f64) {
+    pub(crate) fn rays<S: Simd>(&self, simd: S, start: Tile) -> (Vectors<S>, Sides) {
         let cell = self.cell(start);
         let distance = self.view.magnification();
         let mut u = [0.0; 8];
@@ -137,6 +170,11 @@ impl Context<'_> {
             x: f64x8::from_array(simd, u),
             ..Vectors::splat(simd, cell.middle)
         };
-        (ray, cell.size[0])
+        let [width, height] = cell.size;
+        let sides = Sides {
+            width,
+            height_by_width: height / width,
+        };
+        (ray, sides)
     }
 }

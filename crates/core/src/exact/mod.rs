@@ -132,10 +132,11 @@ impl LitTile {
             height: 1,
             ..tile
         };
-        let side = context.cell(one).size[0];
+        let [width, height] = context.cell(one).size;
         let of_crowds = context.of_crowds.of(candidates);
         self.is_dense = candidates > MOST_SPHERES;
-        self.cache.begin(context.cell(tile), side, of_crowds);
+        self.cache
+            .begin(context.cell(tile), width.min(height), of_crowds);
         self.pixels.clear();
         self.pixels
             .resize(tile.count() as usize, context.empty_pixel());

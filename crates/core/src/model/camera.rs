@@ -228,13 +228,15 @@ fn nearest_to_origin(position: DVec3, pan: Angle, tilt: Angle) -> DVec3 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// Width of the retina in scene units, greater than 0; square pixels give its height.
+    /// Width of the retina in scene units, greater than 0. The pixels give its height.
     pub width: f64,
     /// Distance of the retina from the viewpoint at zoom 1, greater than 0; infinite for a parallel
     /// lens, whose rays are those from a viewpoint that is infinitely far behind the retina.
     pub distance: f64,
     /// The offset of the retina's center from the axis of view, in scene units, right and up.
     pub shift: DVec2,
+    /// The width of a pixel over its height, greater than 0: 1 for square pixels.
+    pub pixel_aspect: f64,
 }
 
 /// The way in which the rays of a lens lie to each other.
@@ -247,7 +249,7 @@ pub(crate) enum Projection {
 }
 
 impl Lens {
-    /// Creates the lens with this horizontal field of view. Its retina is at distance 1.
+    /// Creates the lens with this horizontal field of view. Its retina is at distance 1, and its pixels are square.
     ///
     /// # Errors
     /// Refuses an angle that is not between 0 and 180°. Angles that differ by whole turns are the same.
@@ -267,16 +269,18 @@ impl Lens {
             width: 2.0 * tangent_of_half,
             distance: 1.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         })
     }
 
     /// Creates a lens whose rays are parallel to the axis of view. At zoom 1 the picture shows `width` scene units
-    /// across.
+    /// across. Its pixels are square.
     pub fn parallel(width: f64, shift: DVec2) -> Self {
         Self {
             width,
             distance: f64::INFINITY,
             shift,
+            pixel_aspect: 1.0,
         }
     }
 

@@ -33,7 +33,7 @@ pub struct Contour {
     pub depth: f64,
     /// The ellipse that the sphere fills, unless others hide it; none where the plane through the viewpoint, across
     /// the axis of view, touches the sphere: then the contour is a parabola or a hyperbola, or there is none. Through a
-    /// parallel lens it is a circle, of what lies before that plane.
+    /// parallel lens with square pixels it is a circle, of what lies before that plane.
     pub ellipse: Option<Ellipse>,
 }
 
@@ -73,6 +73,7 @@ impl View {
     /// With the center (x, y, z) from the eye, ρ² = x² + y², the radius r and w = z² − r² > 0, rays at (u, v) on the
     /// retina at distance 1 touch the sphere where (u x + v y + z)² = (u² + v² + 1) (ρ² + w): an ellipse about
     /// (x, y) z / w with the half axes r √(ρ² + w) / w, in the direction of (x, y), and r / √w across it.
+    /// Pixels that are not square stretch it along the y axis.
     pub fn contour(&self, sphere: &Sphere) -> Contour {
         let from_eye = sphere.center() - self.camera.position;
         let center = self.camera.world_from_camera.transpose() * from_eye;
@@ -81,7 +82,7 @@ impl View {
             return self.circle(sphere, center);
         }
         let apart = (center.z - radius) * (center.z + radius);
-        let scale = self.lens.distance * self.zoom / self.pixel_size();
+        let scale = self.lens.distance * self.zoom / self.pixel_size().x;
         let is_ahead = center.z > radius && apart > 0.0;
         let ellipse = is_ahead.then(|| {
             let aside = center.truncate();
@@ -89,11 +90,12 @@ impl View {
             let long = radius * (aside.length_squared() + apart).sqrt() / apart;
             let short = radius / apart.sqrt();
             let along = aside.try_normalize().unwrap_or(DVec2::X);
-            Ellipse {
+            let ellipse = Ellipse {
                 center: self.pixel_of(on_unit * self.lens.distance * self.zoom),
                 semi_axes: [long * scale, short * scale],
                 along: folded(DVec2::new(along.x, -along.y)),
-            }
+            };
+            ellipse.stretched(self.lens.pixel_aspect)
         });
         Contour {
             center: self.project(sphere.center()),
@@ -111,11 +113,14 @@ impl View {
         } else {
             ((radius + center.z) * (radius - center.z)).max(0.0).sqrt()
         };
-        let in_pixels = in_plane * (self.zoom / self.pixel_size());
-        let ellipse = (in_plane > 0.0).then(|| Ellipse {
-            center: self.pixel_of(center.truncate() * self.zoom),
-            semi_axes: [in_pixels; 2],
-            along: DVec2::X,
+        let in_pixels = in_plane * (self.zoom / self.pixel_size().x);
+        let ellipse = (in_plane > 0.0).then(|| {
+            let circle = Ellipse {
+                center: self.pixel_of(center.truncate() * self.zoom),
+                semi_axes: [in_pixels; 2],
+                along: DVec2::X,
+            };
+            circle.stretched(self.lens.pixel_aspect)
         });
         Contour {
             center: self.project(sphere.center()),
@@ -145,6 +150,33 @@ impl Ellipse {
             libm::hypot(long * y, short * x),
         );
         [self.center - half, self.center + half]
+    }
+
+    /// This with the distances from its middle along the y axis multiplied by a number.
+    ///
+    /// # Source
+    /// The columns of the matrix M are the half axes, times the longer one's inverse. M Mᵀ has the squares of the new half
+    /// axes for eigenvalues, whose product is the square of the determinant.
+    fn stretched(self, by: f64) -> Self {
+        if by == 1.0 {
+            return self;
+        }
+        let [long, short] = self.semi_axes;
+        let ratio = short / long;
+        let first = DVec2::new(self.along.x, by * self.along.y);
+        let second = ratio * DVec2::new(-self.along.y, by * self.along.x);
+        let (xx, yy) = (
+            first.x * first.x + second.x * second.x,
+            first.y * first.y + second.y * second.y,
+        );
+        let xy = first.x * first.y + second.x * second.y;
+        let larger = (0.5 * (xx + yy + libm::hypot(xx - yy, 2.0 * xy))).sqrt();
+        let (y, x) = libm::sincos(0.5 * libm::atan2(2.0 * xy, xx - yy));
+        Self {
+            semi_axes: [long * larger, short * by / larger],
+            along: folded(DVec2::new(x, y)),
+            ..self
+        }
     }
 
     fn is_finite(&self) -> bool {

@@ -89,8 +89,8 @@ fn mirrored(matrix: DMat3) -> DMat3 {
     DMat3::from_cols(x, y, z)
 }
 
-/// The matrix of a pinhole camera with square pixels: a point is seen at `focal_length · (x, y) / z +
-/// principal_point`.
+/// The matrix of a pinhole camera: a point is seen at `focal_lengths · (x, y) / z + principal_point`, with the products
+/// of components.
 ///
 /// These coordinates count from the center of the first pixel, as OpenCV does. [`View::project`] counts from the corner of the
 /// picture, so its coordinates are larger by half a pixel.
@@ -103,14 +103,14 @@ fn mirrored(matrix: DMat3) -> DMat3 {
 /// let lens = Lens::from_field_of_view(Angle::from_degrees(90.0))?;
 /// let intrinsics = Intrinsics::of(&View::new(Camera::default(), lens, 100, 60));
 /// // Half the width is 50 pixels, over tan 45°.
-/// assert!((intrinsics.focal_length - 50.0).abs() < 1e-12);
+/// assert!((intrinsics.focal_lengths - DVec2::splat(50.0)).length() < 1e-12);
 /// assert_eq!(intrinsics.principal_point, DVec2::new(49.5, 29.5));
 /// # Ok::<(), marbles_core::CameraError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intrinsics {
-    /// The distance of the retina, in pixels; greater than 0.
-    pub focal_length: f64,
+    /// The distance of the retina in widths and in heights of a pixel, greater than 0: equal if pixels are square.
+    pub focal_lengths: DVec2,
     /// The pixel that the axis of view passes, (0, 0) at the center of the first one.
     pub principal_point: DVec2,
 }
@@ -118,33 +118,37 @@ pub struct Intrinsics {
 impl Intrinsics {
     /// The matrix of this view, with its zoom.
     ///
-    /// The focal length is infinite for a parallel lens, for which you can use [`View::pixels_per_unit`]. It is also
+    /// The focal lengths are infinite for a parallel lens, for which you can use [`View::pixels_per_unit`]. They are also
     /// infinite if the distance of the retina, in pixels, is beyond the range of doubles.
     pub fn of(view: &View) -> Self {
         let shift = view.lens.shift / view.pixel_size();
         let middle = middle(view.width, view.height);
+        let across = view.lens.distance * view.zoom / view.pixel_size().x;
         Self {
-            focal_length: view.lens.distance * view.zoom / view.pixel_size(),
+            focal_lengths: DVec2::new(across, across * view.lens.pixel_aspect),
             principal_point: DVec2::new(middle.x - shift.x, middle.y + shift.y),
         }
     }
 
-    /// The lens that has this matrix in a picture of so many pixels, at zoom 1: its retina is measured in pixels.
+    /// The lens that has this matrix in a picture of so many pixels, at zoom 1: its retina is measured in widths of a
+    /// pixel.
     pub fn lens(&self, width: u32, height: u32) -> Lens {
         let aside = middle(width, height) - self.principal_point;
+        let pixel_aspect = self.focal_lengths.y / self.focal_lengths.x;
         Lens {
             width: f64::from(width),
-            distance: self.focal_length,
-            shift: DVec2::new(aside.x, -aside.y),
+            distance: self.focal_lengths.x,
+            shift: DVec2::new(aside.x, -aside.y / pixel_aspect),
+            pixel_aspect,
         }
     }
 
-    /// K, which has the focal length twice.
+    /// K.
     pub fn matrix(&self) -> DMat3 {
         let DVec2 { x, y } = self.principal_point;
         DMat3::from_cols(
-            DVec3::new(self.focal_length, 0.0, 0.0),
-            DVec3::new(0.0, self.focal_length, 0.0),
+            DVec3::new(self.focal_lengths.x, 0.0, 0.0),
+            DVec3::new(0.0, self.focal_lengths.y, 0.0),
             DVec3::new(x, y, 1.0),
         )
     }

@@ -66,7 +66,8 @@ pub struct Outline {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OutlineWidth {
     /// In pixels. Perspective stretches spheres that lie away from the axis of view, and widens their outlines alike: the
-    /// width counts across the direction to the axis.
+    /// width counts across the direction to the axis. If pixels are not square, the unit is the side of a square with the
+    /// area of a pixel: outlines have the same width in all directions on the retina.
     Pixels(f64),
     /// In scene units: the difference between the radii of the sphere and the smaller one.
     Units(f64),
@@ -75,7 +76,7 @@ pub enum OutlineWidth {
 /// A view as far as outlines depend on it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutlineView {
-    /// The side of a pixel on the plane at distance 1, or of parallel rays on any plane.
+    /// The side of a square with the area of a pixel on the plane at distance 1, or of parallel rays on any plane.
     pub(crate) pixel: f64,
     pub(crate) projection: Projection,
 }

@@ -21,6 +21,7 @@ use super::ray::Ray;
 /// assert_eq!(view.project(DVec3::NEG_Z), None);
 /// let closer = View { zoom: 2.0, ..view };
 /// assert_eq!(closer.pixels_per_unit(), 2.0 * view.pixels_per_unit());
+/// assert_eq!(view.pixel_size().x, view.pixel_size().y);
 /// # Ok::<(), marbles_core::CameraError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,15 +54,17 @@ impl View {
         }
     }
 
-    /// Side of a pixel on the retina, in scene units.
-    pub fn pixel_size(&self) -> f64 {
-        self.lens.width / f64::from(self.width)
+    /// Width and height of a pixel on the retina, in scene units.
+    pub fn pixel_size(&self) -> DVec2 {
+        let width = self.lens.width / f64::from(self.width);
+        DVec2::new(width, width / self.lens.pixel_aspect)
     }
 
-    /// The number of pixels that a length of 1 spans on the plane at distance 1 in front of the viewpoint; for a
-    /// parallel lens, on any plane perpendicular to the axis of view.
-    pub fn pixels_per_unit(&self) -> f64 {
-        self.magnification() / self.pixel_size()
+    /// The numbers of pixels that a length of 1 spans across and upward on the plane at distance 1 in front of the
+    /// viewpoint; for a parallel lens, on any plane perpendicular to the axis of view.
+    pub fn pixels_per_unit(&self) -> DVec2 {
+        let across = self.magnification() / self.pixel_size().x;
+        DVec2::new(across, across * self.lens.pixel_aspect)
     }
 
     /// The length on the retina of a length of 1 on the plane at distance 1 in front of the viewpoint; for a parallel
@@ -74,19 +77,21 @@ impl View {
     }
 
     /// The part of the plane at distance 1 in front of the viewpoint that the picture shows: its center, to the right
-    /// and up from the axis of view, and its width.
-    pub fn screen_window(&self) -> (DVec2, f64) {
+    /// and up from the axis of view, and its width and height.
+    pub fn screen_window(&self) -> (DVec2, DVec2) {
         let magnification = self.magnification();
+        let width = self.lens.width / magnification;
+        let height = width * f64::from(self.height) / f64::from(self.width);
         (
             self.lens.shift / magnification,
-            self.lens.width / magnification,
+            DVec2::new(width, height / self.lens.pixel_aspect),
         )
     }
 
     /// The part of the view that the outlines of spheres depend on.
     pub(crate) fn outline_view(&self) -> OutlineView {
         OutlineView {
-            pixel: 1.0 / self.pixels_per_unit(),
+            pixel: 1.0 / (self.pixels_per_unit().x * self.lens.pixel_aspect.sqrt()),
             projection: self.lens.projection(),
         }
     }
@@ -115,13 +120,14 @@ impl View {
     ///
     /// Points that mirror each other in the middle of an unshifted retina do so to the bit.
     pub fn cell_center(&self, col: u64, row: u64, divisions: u32) -> DVec2 {
-        let cell = self.lens.width / (f64::from(self.width) * f64::from(divisions));
+        let width = self.lens.width / (f64::from(self.width) * f64::from(divisions));
+        let height = width / self.lens.pixel_aspect;
         // Twice the distance from the middle, in cells: a whole number.
         let twice = |index: u64, pixels: u32| {
             2 * index as i64 + 1 - i64::from(divisions) * i64::from(pixels)
         };
-        let u = 0.5 * cell * twice(col, self.width) as f64;
-        let v = -0.5 * cell * twice(row, self.height) as f64;
+        let u = 0.5 * width * twice(col, self.width) as f64;
+        let v = -0.5 * height * twice(row, self.height) as f64;
         DVec2::new(u, v) + self.lens.shift
     }
 

@@ -132,9 +132,9 @@ impl Preview {
     }
 }
 
-/// Returns whether some sphere may be seen with a smaller radius, in pixels.
+/// Returns whether some sphere may be seen with a smaller radius, in pixels along either axis.
 fn has_smaller(world: &World, view: &View, radius: f64) -> bool {
-    let unit = view.pixels_per_unit();
+    let unit = view.pixels_per_unit().min_element();
     let is_smaller = |sphere: &Sphere| {
         let distance = match view.lens.projection() {
             Projection::Central => (sphere.center() - view.camera.position).length(),

@@ -24,15 +24,16 @@ pub(super) struct Rays {
     view: View,
     /// Samples on a side of a pixel.
     side: u32,
-    /// Half the side of a cell.
-    half_cell: f64,
+    /// Half the width and half the height of a cell.
+    half_cell: DVec2,
     /// Lengths there for each at the distance of 1, or, through a parallel lens, at any distance.
     magnification: f64,
     /// Directions are divided by two to the power of this, which makes them moderate.
     exponent: i32,
     scale: f64,
-    /// Rows on a length of 1 at the distance of 1, or at any, and in the lens's shift.
-    rows_on_unit: f64,
+    /// Columns and rows on a length of 1 at the distance of 1, or at any.
+    pixels_on_unit: DVec2,
+    /// Rows in the lens's shift.
     shift_rows: f64,
     /// The place of the first sample in a pixel.
     first: f64,
@@ -71,7 +72,8 @@ impl Place {
 
 impl Rays {
     pub(super) fn new(view: &View, side: u32) -> Self {
-        let cell = view.lens.width / (f64::from(view.width) * f64::from(side));
+        let width = view.lens.width / (f64::from(view.width) * f64::from(side));
+        let cell = DVec2::new(width, width / view.lens.pixel_aspect);
         let magnification = view.magnification();
         let size = DVec2::new(f64::from(view.width), f64::from(view.height));
         let edges = 0.5 * view.pixel_size() * size + view.lens.shift.abs();
@@ -88,8 +90,8 @@ impl Rays {
             magnification,
             exponent,
             scale: libm::scalbn(1.0, -exponent),
-            rows_on_unit: magnification / view.pixel_size(),
-            shift_rows: view.lens.shift.y / view.pixel_size(),
+            pixels_on_unit: magnification / view.pixel_size(),
+            shift_rows: view.lens.shift.y / view.pixel_size().y,
             first: 0.5 / f64::from(side),
             strata: None,
         }
@@ -116,18 +118,20 @@ impl Rays {
         self.exponent
     }
 
-    /// The number of samples side by side on a length of 1 at the distance of 1, or at any.
+    /// The number of samples side by side on a length of 1 at the distance of 1, or at any: the geometric mean of those
+    /// along both axes.
     pub(super) fn cells_on_unit(&self) -> f64 {
-        let cells = self.magnification / (2.0 * self.half_cell);
+        let across = self.magnification / (2.0 * self.half_cell.x);
+        let cells = across * self.view.lens.pixel_aspect.sqrt();
         match self.strata {
             Some(side) => cells * f64::from(side) / f64::from(FINE),
             None => cells,
         }
     }
 
-    /// The side of a tile at the distance of 1, or at any.
+    /// The longer side of a tile at the distance of 1, or at any.
     pub(super) fn tile_side(&self) -> f64 {
-        f64::from(Tile::SIDE) / self.rows_on_unit
+        f64::from(Tile::SIDE) / self.pixels_on_unit.min_element()
     }
 
     /// The places on the retina, to the right, of a sample of eight pixels; pixels after the first
@@ -139,7 +143,7 @@ impl Rays {
         let steps = steps.simd_lt(last).select(steps, last);
         let first = self.twice(place.col, place.cell_col, self.view.width);
         let across = steps * (2.0 * f64::from(self.side)) + first;
-        across * self.half_cell + self.view.lens.shift.x
+        across * self.half_cell.x + self.view.lens.shift.x
     }
 
     /// Twice the distance of a cell from the middle, in cells: whole numbers, far below 2⁵³.
@@ -153,7 +157,7 @@ impl Rays {
     #[inline(always)]
     pub(super) fn upward(&self, place: Place) -> f64 {
         let twice = self.twice(place.row, place.cell_row, self.view.height);
-        -self.half_cell * twice + self.view.lens.shift.y
+        -self.half_cell.y * twice + self.view.lens.shift.y
     }
 
     /// The distance of the retina; of a parallel lens its lengths for each of the world.
@@ -193,8 +197,8 @@ impl Rays {
             v[lane] = self.twice(place.row, row, self.view.height);
         }
         let shift = self.view.lens.shift;
-        let u = f64x8::from_array(simd, u) * self.half_cell + shift.x;
-        let v = f64x8::from_array(simd, v) * -self.half_cell + shift.y;
+        let u = f64x8::from_array(simd, u) * self.half_cell.x + shift.x;
+        let v = f64x8::from_array(simd, v) * -self.half_cell.y + shift.y;
         let axes = &self.view.camera.world_from_camera;
         let forward = axes.z_axis * self.magnification;
         Vectors {
@@ -257,8 +261,8 @@ impl Rays {
             f64::from(first) + 0.5 * (f64::from(count) - f64::from(pixels))
         };
         let center = DVec3::new(
-            middle(tile.col, tile.width, self.view.width) * pixel + self.view.lens.shift.x,
-            -middle(tile.row, tile.height, self.view.height) * pixel + self.view.lens.shift.y,
+            middle(tile.col, tile.width, self.view.width) * pixel.x + self.view.lens.shift.x,
+            -middle(tile.row, tile.height, self.view.height) * pixel.y + self.view.lens.shift.y,
             self.magnification,
         ) * self.scale;
         let half = DVec2::new(f64::from(tile.width), f64::from(tile.height)) * (0.5 * pixel);
@@ -281,7 +285,7 @@ impl Rays {
         Rows {
             up: axes.y_axis,
             forward: axes.z_axis,
-            on_unit: self.rows_on_unit,
+            on_unit: self.pixels_on_unit.y,
             origin: middle + self.shift_rows,
             size: f64::from(self.view.height) + self.shift_rows.abs(),
             first: self.first,

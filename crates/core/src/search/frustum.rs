@@ -98,14 +98,19 @@ struct Axis {
 type Span = (u32, u32);
 
 impl Axis {
-    fn new(view: &View, pixels: u32, sign: f64, shift: f64, scale: f64) -> Self {
+    /// The axis of so many pixels with this side on the retina; `sign` is −1 if they count downward.
+    fn new(
+        view: &View,
+        (pixels, pixel): (u32, f64),
+        (sign, shift): (f64, f64),
+        scale: f64,
+    ) -> Self {
         let projection = view.lens.projection();
         let distance = view.magnification();
         let per_length = match projection {
             Projection::Central => distance,
             Projection::Parallel => distance / scale,
         };
-        let pixel = view.pixel_size();
         let edges = (0..pixels).step_by(Tile::SIDE as usize).chain([pixels]);
         let plane = |edge: u32| {
             let on_retina = sign * (f64::from(edge) - 0.5 * f64::from(pixels)) * pixel + shift;
@@ -204,10 +209,10 @@ impl TileRange {
 impl Frustum {
     /// The frustum of a view cut into tiles, for lengths that are those of the world times `scale`.
     pub(super) fn new(view: &View, scale: f64) -> Self {
-        let shift = view.lens.shift;
+        let (shift, pixel) = (view.lens.shift, view.pixel_size());
         Self {
-            columns: Axis::new(view, view.width, 1.0, shift.x, scale),
-            rows: Axis::new(view, view.height, -1.0, shift.y, scale),
+            columns: Axis::new(view, (view.width, pixel.x), (1.0, shift.x), scale),
+            rows: Axis::new(view, (view.height, pixel.y), (-1.0, shift.y), scale),
         }
     }
 

@@ -66,9 +66,10 @@ pub(super) type Spans = ([u32; LANES], [u32; LANES]);
 pub(super) struct Grid {
     /// The upper left corner.
     pub(super) corner: DVec2,
-    pub(super) cell: f64,
-    /// One over that.
-    pub(super) in_cells: f64,
+    /// Width and height of a cell.
+    pub(super) cell: DVec2,
+    /// One over these.
+    pub(super) in_cells: DVec2,
     /// Cells on a side.
     pub(super) cells: u32,
     /// The place in a cell of the line of points that rays go through; 0 where they go anywhere.
@@ -91,21 +92,17 @@ impl Grid {
         let pixel = view.pixel_size();
         let from_middle = |first: u32, pixels: u32| f64::from(first) - 0.5 * f64::from(pixels);
         let corner = DVec2::new(
-            from_middle(col, view.width) * pixel + view.lens.shift.x,
-            -from_middle(row, view.height) * pixel + view.lens.shift.y,
+            from_middle(col, view.width) * pixel.x + view.lens.shift.x,
+            -from_middle(row, view.height) * pixel.y + view.lens.shift.y,
         );
         let corner = corner / distance;
         let cell = pixel / distance / f64::from(cells_a_pixel);
-        let in_cells = 1.0 / cell;
+        // What is not a number reaches all cells and covers none.
+        let in_cells = (1.0 / cell).map(|cells| if cells.is_finite() { cells } else { f64::NAN });
         Self {
             corner,
             cell,
-            // What is not a number reaches all cells and covers none.
-            in_cells: if in_cells.is_finite() {
-                in_cells
-            } else {
-                f64::NAN
-            },
+            in_cells,
             cells: BLOCK * cells_a_pixel,
             middle,
             margin: corner.abs() * (Self::MARGIN / cell) + Self::MARGIN,
@@ -123,8 +120,8 @@ impl Grid {
     /// The cells that reach into a rectangle of the retina, or have their points there, and few
     /// others.
     pub(super) fn range(&self, low: DVec2, high: DVec2) -> Option<CellRange> {
-        let span = |a: f64, b: f64, margin: f64| {
-            let (low, high) = (a * self.in_cells, b * self.in_cells);
+        let span = |(a, b): (f64, f64), in_cells: f64, margin: f64| {
+            let (low, high) = (a * in_cells, b * in_cells);
             let margin = Self::MARGIN * (low.abs() + high.abs()) + margin - self.middle;
             let (low, high) = (low.min(high) - margin, low.max(high) + margin);
             if high < 0.0 || low >= f64::from(self.cells) {
@@ -138,8 +135,8 @@ impl Grid {
         let across = (low.x - self.corner.x, high.x - self.corner.x);
         let down = (self.corner.y - high.y, self.corner.y - low.y);
         Some(CellRange {
-            columns: span(across.0, across.1, self.margin.x)?,
-            rows: span(down.0, down.1, self.margin.y)?,
+            columns: span(across, self.in_cells.x, self.margin.x)?,
+            rows: span(down, self.in_cells.y, self.margin.y)?,
         })
     }
 
@@ -155,8 +152,12 @@ impl Grid {
         let across = (across.0 - self.corner.x, across.1 - self.corner.x);
         let top = f64x8::splat(simd, self.corner.y);
         let down = (top - upward.1, top - upward.0);
-        let (columns, are_columns) = self.spans_along(simd, across, self.margin.x, is_known);
-        let (rows, are_rows) = self.spans_along(simd, down, self.margin.y, is_known);
+        let (right, below) = (
+            (self.in_cells.x, self.margin.x),
+            (self.in_cells.y, self.margin.y),
+        );
+        let (columns, are_columns) = self.spans_along(simd, across, right, is_known);
+        let (rows, are_rows) = self.spans_along(simd, down, below, is_known);
         (columns, rows, are_columns & are_rows)
     }
 
@@ -166,14 +167,14 @@ impl Grid {
         &self,
         simd: S,
         (low, high): (f64x8<S>, f64x8<S>),
-        margin: f64,
+        (in_cells, margin): (f64, f64),
         is_known: mask64x8<S>,
     ) -> (Spans, mask64x8<S>) {
         let (zero, last) = (
             f64x8::splat(simd, 0.0),
             f64x8::splat(simd, f64::from(self.cells - 1)),
         );
-        let (low, high) = (low * self.in_cells, high * self.in_cells);
+        let (low, high) = (low * in_cells, high * in_cells);
         let margin = (low.abs() + high.abs()) * Self::MARGIN + (margin - self.middle);
         let (low, high) = ((low - margin).floor(), (high + margin).floor());
         let is_out = high.simd_lt(zero) | low.simd_gt(last) | low.simd_gt(high);

@@ -144,10 +144,10 @@ impl CoverageMask {
         let (mut row, last) = silhouette.range.rows;
         while row <= last {
             let lines = f64x8::from_array(simd, LANE_NUMBERS) + (f64::from(row) + middle);
-            let height = f64x8::splat(simd, grid.corner.y) - lines * grid.cell;
+            let height = f64x8::splat(simd, grid.corner.y) - lines * grid.cell.y;
             let (low, high, is_met) = silhouette.along(simd, height);
-            let low = (low - grid.corner.x) * grid.in_cells;
-            let high = (high - grid.corner.x) * grid.in_cells;
+            let low = (low - grid.corner.x) * grid.in_cells.x;
+            let high = (high - grid.corner.x) * grid.in_cells.x;
             let size = (low.abs() + high.abs()) * ROUNDING + (margin - middle);
             let is_met = is_met & size.simd_lt(f64::INFINITY);
             let first = is_met.select((low + size).ceil().max(zero).min(cells), cells);

@@ -55,6 +55,14 @@ fn world_of(balls: impl IntoIterator<Item = (DVec3, f64)>, random: &mut Random) 
     world
 }
 
+/// The width of pixels over their height: 1 in every second view, and up to 5 in others, or one over that.
+pub(crate) fn aspect(random: &mut Random) -> f64 {
+    match random.number() < 0.5 {
+        true => 1.0,
+        false => libm::pow(5.0, 2.0 * random.number() - 1.0),
+    }
+}
+
 /// A view of the surroundings of the origin, wide or narrow, rolled and shifted.
 fn view(random: &mut Random) -> View {
     let mut degrees = |range: f64| Angle::from_degrees(range * (random.number() - 0.5));
@@ -71,6 +79,7 @@ fn view(random: &mut Random) -> View {
         width: 0.3 + 4.0 * random.number(),
         distance: 1.0,
         shift,
+        pixel_aspect: aspect(random),
     };
     View {
         camera,

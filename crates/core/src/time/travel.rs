@@ -136,7 +136,10 @@ impl MovingSphere<'_> {
         if !is_hit {
             /// More than half the diagonal of a square, as a part of its side.
             const HALF_DIAGONAL: f64 = 0.71;
-            let away = (view.project(point)? - middle).length();
+            // The point is nearest in the world. Pixels that are not square have other distances.
+            let pixel = view.pixel_size();
+            let least = pixel.min_element() / pixel.max_element();
+            let away = (view.project(point)? - middle).length() * least;
             if away > HALF_DIAGONAL * side + travel + 1.0 {
                 return None;
             }

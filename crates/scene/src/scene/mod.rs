@@ -272,7 +272,7 @@ impl Scene {
     fn picture(&self, fill: f64) -> Picture {
         Picture {
             lens: self.lens,
-            aspect: f64::from(self.height) / f64::from(self.width),
+            aspect: f64::from(self.height) / f64::from(self.width) / self.lens.pixel_aspect,
             fill,
         }
     }

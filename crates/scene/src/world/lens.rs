@@ -18,6 +18,7 @@ pub(crate) fn lens(lens: &Placed<file::Lens>, image: &Placed<file::Image>) -> Op
             width: width.get()?.0,
             distance: distance.get()?.0,
             shift: shift.get()?.0,
+            pixel_aspect: 1.0,
         }),
         file::Lens::Fov(degrees) => {
             let width = 2.0 * libm::tan(0.5 * degrees.get()?.0.to_radians());
@@ -26,14 +27,15 @@ pub(crate) fn lens(lens: &Placed<file::Lens>, image: &Placed<file::Image>) -> Op
                 width: width.max(f64::MIN_POSITIVE),
                 distance: 1.0,
                 shift: DVec2::ZERO,
+                pixel_aspect: 1.0,
             })
         }
         file::Lens::Matrix { fx, fy, cx, cy } => {
-            let focal_length = focal_length(fx, fy)?;
+            let focal_lengths = focal_lengths(fx, fy)?;
             let principal_point = DVec2::new(cx.get()?.0, cy.get()?.0);
             let image = image.value.as_ref()?;
             let intrinsics = Intrinsics {
-                focal_length,
+                focal_lengths,
                 principal_point,
             };
             Some(intrinsics.lens(image.width.get()?.0, image.height.get()?.0))
@@ -44,16 +46,18 @@ pub(crate) fn lens(lens: &Placed<file::Lens>, image: &Placed<file::Image>) -> Op
     }
 }
 
-/// The focal length of square pixels.
-fn focal_length(fx: &Placed<FocalLength>, fy: &Placed<FocalLength>) -> Option<f64> {
-    /// The largest relative difference: what nine digits leave.
-    const DIFFERENCE: f64 = 1e-9;
+/// The focal lengths in widths and in heights of a pixel.
+fn focal_lengths(fx: &Placed<FocalLength>, fy: &Placed<FocalLength>) -> Option<DVec2> {
+    /// The longer side of a pixel over the shorter one, at most.
+    const MOST: f64 = 1000.0;
     let (x, y) = (fx.get()?.0, fy.get()?.0);
-    if (y - x).abs() > DIFFERENCE * x.max(y) {
-        let message = format!("expected square pixels, with fy equal to fx ({x}), found {y}");
+    if x > MOST * y || y > MOST * x {
+        let (least, most) = (x / MOST, x * MOST);
+        let message =
+            format!("expected a focal length from {least} to {most}, as fx is {x}, found {y}");
         return refuse(fy.place.clone(), message);
     }
-    Some(x + 0.5 * (y - x))
+    Some(DVec2::new(x, y))
 }
 
 /// The lens as the file writes it.

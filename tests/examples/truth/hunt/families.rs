@@ -5,6 +5,7 @@ use super::extremes::{brightness, far_parallel_lenses, huge_floors, near_eyes, n
 use super::outlines::outlined;
 use super::parallel::{parallel_lenses, planes_that_cut};
 use super::point_lights::{grazing_cones, lights_between_spheres, lights_inside, near_lights};
+use super::rectangles::rectangular_pixels;
 use super::scenes::{
     aligned_grids, coincident, crowds, exponents, far_away, far_bumps, floors, grazing_shadows,
     highlights, long_lenses, many_lights, ordinary, overlapping_crowds, rough, seams, shutters,
@@ -28,7 +29,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 37] = [
+pub(super) const FAMILIES: [Family; 38] = [
     Family {
         name: "ordinary",
         draft: Maker::Random(ordinary),
@@ -208,6 +209,11 @@ pub(super) const FAMILIES: [Family; 37] = [
         name: "brightness",
         draft: Maker::Random(brightness),
         rarity: 2,
+    },
+    Family {
+        name: "rectangular pixels",
+        draft: Maker::Random(rectangular_pixels),
+        rarity: 1,
     },
     Family {
         name: "together",

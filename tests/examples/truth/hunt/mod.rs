@@ -20,6 +20,7 @@ mod pixels;
 mod point_lights;
 mod pose;
 mod random;
+mod rectangles;
 mod reduce;
 mod report;
 mod sampled;

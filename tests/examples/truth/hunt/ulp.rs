@@ -110,7 +110,8 @@ fn shift(subject: &Subject, other: &Subject, index: usize) -> Option<f64> {
     let ulp = grown.radius() - sphere.radius();
     let view = subject.plain().view(1).ok()?;
     let lens = &view.lens;
-    let pixels = f64::from(view.width) * view.zoom / lens.width;
+    // Pixels may be lower than wide.
+    let pixels = f64::from(view.width) * view.zoom / lens.width * lens.pixel_aspect.max(1.0);
     if lens.is_parallel() {
         /// More than the rounding error, in ulps.
         const TOUCHES: f64 = 8.0;
@@ -122,7 +123,8 @@ fn shift(subject: &Subject, other: &Subject, index: usize) -> Option<f64> {
         return Some(ulp * pixels * grazing(subject, index, f64::INFINITY));
     }
     // Beside the axis a retina shows things larger.
-    let slope = (0.5 * lens.width + lens.shift.length()) / (lens.distance * view.zoom);
+    let side = lens.width * (1.0 / lens.pixel_aspect).max(1.0);
+    let slope = (0.5 * side + lens.shift.length()) / (lens.distance * view.zoom);
     let pixels = pixels * lens.distance * (1.0 + slope * slope);
     let near = reach(subject, view.camera.position);
     Some(ulp / near * pixels * grazing(subject, index, near))

@@ -1,5 +1,6 @@
 //! Warnings about settings that are expensive, or with which small tolerances cannot be met.
 
+use glam::DVec2;
 use marbles_core::{Grain, Sphere, View, World};
 
 use crate::base::numbers::short;
@@ -55,7 +56,7 @@ fn narrow_highlights(world: &World, views: &[&View]) -> Option<String> {
 
 /// Finds a lens so long that rounding moves edges by a noticeable fraction of a pixel.
 fn coarse_lens(views: &[&View]) -> Option<String> {
-    let pixels = views.iter().map(|view| pixel_at_one(view));
+    let pixels = views.iter().map(|view| pixel_at_one(view).min_element());
     let moved = ROUNDINGS / pixels.fold(f64::INFINITY, f64::min);
     (moved > COARSE).then(|| {
         format!(
@@ -67,7 +68,7 @@ fn coarse_lens(views: &[&View]) -> Option<String> {
 }
 
 /// The first sphere with details smaller than a pixel in all views, the number of other such spheres, the size of the
-/// details, and the width of the pixel there.
+/// details, and the longer side of the pixel there.
 fn smaller_than_pixels(
     world: &World,
     views: &[&View],
@@ -97,8 +98,8 @@ fn smaller_than_pixels(
     Some((place, short(size), short(pixel)))
 }
 
-/// The width of a pixel at the nearest point of a sphere. `None` if the sphere is behind the viewpoint or contains it.
-/// Through a parallel lens the width is the same everywhere.
+/// The longer side of a pixel at the nearest point of a sphere. `None` if the sphere is behind the viewpoint or contains it.
+/// Through a parallel lens it is the same everywhere.
 fn pixel_on(view: &View, sphere: &Sphere) -> Option<f64> {
     let from_eye = sphere.center() - view.camera.position;
     let ahead = from_eye.dot(view.camera.forward());
@@ -107,11 +108,12 @@ fn pixel_on(view: &View, sphere: &Sphere) -> Option<f64> {
     } else {
         from_eye.length() - sphere.radius()
     };
-    (ahead > -sphere.radius() && distance > 0.0).then(|| distance * pixel_at_one(view))
+    (ahead > -sphere.radius() && distance > 0.0)
+        .then(|| distance * pixel_at_one(view).max_element())
 }
 
-/// The width of a pixel at a distance of 1, or through a parallel lens at any distance.
-fn pixel_at_one(view: &View) -> f64 {
+/// The width and the height of a pixel at a distance of 1, or through a parallel lens at any distance.
+fn pixel_at_one(view: &View) -> DVec2 {
     view.pixel_size() / view.magnification()
 }
 

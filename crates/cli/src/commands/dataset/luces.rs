@@ -46,15 +46,21 @@ pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<PointLight>, 
     near.collect()
 }
 
-/// Refuses lenses without a focal length in pixels.
+/// Refuses lenses without a focal length in pixels, or with two.
 pub(super) fn check_lens(scene: &Path, view: &View) -> Result<(), Failure> {
-    match Intrinsics::of(view).focal_length.is_finite() {
-        true => Ok(()),
-        false => Err(Failure::unusable(
-            scene,
-            "the layout luces needs a focal length, but the lens of the scene has none",
-        )),
+    let DVec2 { x, y } = Intrinsics::of(view).focal_lengths;
+    let refuse = |why: &str| Err(Failure::unusable(scene, why));
+    if !x.is_finite() {
+        return refuse("the layout luces needs a focal length, but the lens of the scene has none");
     }
+    if x != y {
+        let found = format!(
+            "the layout luces has a single focal length, for square pixels, but the lens of the scene has two: fx \
+             {x} and fy {y}"
+        );
+        return refuse(&found);
+    }
+    Ok(())
 }
 
 /// The mean depth of the visible surfaces. Refuses pictures without spheres.
@@ -103,11 +109,11 @@ pub(super) fn write(
     ] = NAMES.map(|name| folder.join(name));
 
     let Intrinsics {
-        focal_length,
+        focal_lengths,
         principal_point: DVec2 { x, y },
     } = Intrinsics::of(view);
     let sizes = format!("{} {} {}", lights.len(), view.height, view.width);
-    let setup = line(&[focal_length, x, y, mean_distance]);
+    let setup = line(&[focal_lengths.x, x, y, mean_distance]);
     let setup = [HEADER.to_owned(), format!("{sizes} {setup}")];
     let parameters = lights.iter().zip(&positions).map(|(light, position)| {
         // The axis of view; μ; and a number that nobody reads.
@@ -119,8 +125,8 @@ pub(super) fn write(
     });
     write_lines(&parameters_file, setup.into_iter().chain(parameters))?;
     let matrix = [
-        [focal_length, 0.0, x],
-        [0.0, focal_length, y],
+        [focal_lengths.x, 0.0, x],
+        [0.0, focal_lengths.y, y],
         [0.0, 0.0, 1.0],
     ];
     write_lines(&matrix_file, matrix.map(|row| line(&row)))?;

@@ -52,11 +52,10 @@ fn place(sphere: &Sphere, view: &View) -> Option<Place> {
 
 /// The rays through the corners of a picture, in the world frame.
 fn corners(view: &View) -> impl Iterator<Item = DVec3> {
-    let (middle, width) = view.screen_window();
-    let height = width * f64::from(view.height) / f64::from(view.width);
+    let (middle, size) = view.screen_window();
     let signs = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
     signs.into_iter().map(move |(x, y)| {
-        let ray = DVec3::new(middle.x + x * width, middle.y + y * height, 1.0);
+        let ray = DVec3::new(middle.x + x * size.x, middle.y + y * size.y, 1.0);
         view.camera.world_from_camera * ray
     })
 }

@@ -7,9 +7,8 @@ pub(super) fn may_be_seen(sphere: &Sphere, view: &View) -> bool {
     let camera = &view.camera;
     let from_eye = camera.world_from_camera.transpose() * (sphere.center() - camera.position);
     let radius = sphere.radius();
-    let (middle, width) = view.screen_window();
-    let half_width = 0.5 * width;
-    let half_height = half_width * f64::from(view.height) / f64::from(view.width);
+    let (middle, size) = view.screen_window();
+    let half = 0.5 * size;
     let (x, y, z) = (from_eye.x, from_eye.y, from_eye.z);
     if z + radius <= 0.0 {
         return false;
@@ -24,5 +23,5 @@ pub(super) fn may_be_seen(sphere: &Sphere, view: &View) -> bool {
             of_side(middle + half, 1.0).max(of_side(middle - half, -1.0))
         }
     };
-    outside(x, middle.x, half_width) < radius && outside(y, middle.y, half_height) < radius
+    outside(x, middle.x, half.x) < radius && outside(y, middle.y, half.y) < radius
 }

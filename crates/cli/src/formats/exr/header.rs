@@ -102,14 +102,19 @@ pub(crate) fn add_achieved(one: &mut LayerAttributes, other: &LayerAttributes) {
     }
 }
 
+/// The width of a pixel over its height.
+pub(super) fn pixel_aspect(view: &View) -> f32 {
+    view.lens.pixel_aspect as f32
+}
+
 /// The center and the width of the screen window.
 ///
 /// In OpenEXR's technical introduction, x points to the left. In its standard attributes, which use RenderMan's
 /// coordinates, it points to the right. We follow the attributes, as in `worldToCamera`.
 fn screen_window(view: &View) -> (Vec2<f32>, f32) {
-    let (center, width) = view.screen_window();
+    let (center, size) = view.screen_window();
     let float = |number: f64| number.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
-    (Vec2(float(center.x), float(center.y)), float(width))
+    (Vec2(float(center.x), float(center.y)), float(size.x))
 }
 
 /// The matrix M of p_camera = p_world · M, row by row: points are row vectors, as everywhere in OpenEXR.

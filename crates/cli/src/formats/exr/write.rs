@@ -13,7 +13,7 @@ use marbles_core::Summary;
 
 use super::attributes::{set_double, sort_attributes};
 use super::blocks::{Blocks, ROWS_OF_A_BLOCK, compress};
-use super::header::{achieved, attributes, header_of};
+use super::header::{achieved, attributes, header_of, pixel_aspect};
 use crate::base::failure::Failure;
 use crate::base::size::Size;
 use crate::files::save::{Fault, save};
@@ -135,7 +135,8 @@ pub(crate) fn write_blocks(
     next: impl FnMut() -> Result<Chunk, Fault>,
     summary: impl FnOnce() -> Option<Summary>,
 ) -> Result<(), Fault> {
-    let header = blocks.header.clone();
+    let mut header = blocks.header.clone();
+    header.shared_attributes.pixel_aspect = pixel_aspect(&facts.view);
     let mut attributes = LayerAttributes {
         layer_position: header.own_attributes.layer_position,
         ..attributes(facts)

@@ -64,8 +64,11 @@ struct Part {
 struct Camera {
     #[serde(flatten)]
     projection: Projection,
-    /// The side of a pixel on the retina, in scene units.
+    /// The width of a pixel on the retina, in scene units.
     pixel_size: f64,
+    /// The width of a pixel over its height, unless pixels are square.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pixel_aspect: Option<f64>,
     /// The factor by which the distance of the retina is multiplied, or by which the width of a parallel lens is
     /// divided. The projection includes it.
     zoom: f64,
@@ -257,7 +260,8 @@ impl Camera {
             tilt,
             roll,
             projection: Projection::of(view),
-            pixel_size: view.pixel_size(),
+            pixel_size: view.pixel_size().x,
+            pixel_aspect: Some(view.lens.pixel_aspect).filter(|aspect| *aspect != 1.0),
             zoom: view.zoom,
             rotation: rows(place.rotation),
             translation: numbers(place.translation),
@@ -273,7 +277,8 @@ impl Projection {
         let intrinsics = Intrinsics::of(view);
         if view.lens.is_parallel() {
             Self::Parallel {
-                pixels_per_unit: view.pixels_per_unit(),
+                // The pixels of a parallel lens are square.
+                pixels_per_unit: view.pixels_per_unit().x,
                 principal_point: intrinsics.principal_point.to_array(),
             }
         } else {

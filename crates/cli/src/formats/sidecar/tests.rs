@@ -85,6 +85,23 @@ fn a_view_has_its_camera_and_lights_in_right_handed_axes() {
 }
 
 #[test]
+fn rectangular_pixels_have_two_focal_lengths() {
+    let text = SCENE.replace(
+        "Retina(width: 32, distance: 25, shift: (1, -2))",
+        "Matrix(fx: 500, fy: 400, cx: 300, cy: 200)",
+    );
+    let scene = Scene::parse(&text, Path::new("a.ron")).unwrap();
+    let view = scene.view(7).unwrap();
+    let (_, value) = written(&Sidecar::of(&scene, Path::new("a.ron"), 7, &view));
+    let camera = &value["camera"];
+    // With the zoom of 2.
+    let matrix = json!([[1000.0, 0.0, 300.0], [0.0, 800.0, 200.0], [0.0, 0.0, 1.0]]);
+    assert_eq!(camera["K"], matrix);
+    assert_eq!(camera["pixel_size"], json!(1.0));
+    assert_eq!(camera["pixel_aspect"], json!(0.8));
+}
+
+#[test]
 fn what_rendering_knows_is_added() {
     let scene = scene();
     let view = scene.view(7).unwrap();

@@ -103,6 +103,14 @@ fn whatever_changes_a_picture_changes_its_digest() {
         ("distance: 100", "distance: 101"),
         ("(1, 2)", "(0, 2)"),
         ("(1, 2)", "(1, 3)"),
+        (
+            "Retina(width: 60, distance: 100, shift: (1, 2))",
+            "Matrix(fx: 90, fy: 90, cx: 9, cy: 9)",
+        ),
+        (
+            "Retina(width: 60, distance: 100, shift: (1, 2))",
+            "Matrix(fx: 90, fy: 91, cx: 9, cy: 9)",
+        ),
         ("(0, 1, 2)", "(0, 1, 3)"),
         ("pan: 3", "pan: 4"),
         ("zoom: 1.5", "zoom: 1.25"),

@@ -32,6 +32,7 @@ fn parts(centers: &[DVec3]) -> f64 {
             width: 1.0,
             distance: 3.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: 6,

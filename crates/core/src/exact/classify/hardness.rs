@@ -90,9 +90,10 @@ impl Contents {
             let finish = Finish::new(scene, active.sphere, self.pixel);
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let middle = 0.5 * (patch.ends[0] + patch.ends[1]);
+            let side = cell.size[0].max(cell.size[1]);
             let side = match cell.projection {
-                Projection::Central => cell.size[0] * middle.length() / cell.middle.length(),
-                Projection::Parallel => cell.size[0],
+                Projection::Central => side * middle.length() / cell.middle.length(),
+                Projection::Parallel => side,
             };
             most = most.max(finish.shading_normal.cells() * side / active.ball.radius);
         }

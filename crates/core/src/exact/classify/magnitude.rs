@@ -11,10 +11,10 @@ const MODERATE: std::ops::Range<f64> = 1e-60..1e60;
 /// exact hits; where they cannot be trusted, a pixel makes no claim.
 pub(crate) fn is_view_moderate(view: &View) -> bool {
     let distance = view.magnification();
-    let pixel = view.pixel_size() / distance;
-    [distance, view.pixel_size(), pixel]
-        .iter()
-        .all(|number| MODERATE.contains(number))
+    let pixel = view.pixel_size();
+    let sides = [pixel, pixel / distance].map(|sides| sides.to_array());
+    let mut numbers = sides.as_flattened().iter().chain([&distance]);
+    numbers.all(|number| MODERATE.contains(number))
 }
 
 /// Returns whether the numbers of a sphere are moderate.

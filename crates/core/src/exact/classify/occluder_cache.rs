@@ -27,7 +27,7 @@ const SMALL_PX: f64 = 4.0;
 #[derive(Clone, Debug)]
 pub(crate) struct OccluderCache {
     tile: Cell,
-    /// The side of a pixel at distance 1; for parallel rays at any.
+    /// The shorter side of a pixel at distance 1; for parallel rays at any.
     pixel: f64,
     pub(crate) level: Level,
     known: Vec<Known>,
@@ -78,7 +78,7 @@ const UNITS_OF_OCCLUDER: u64 = 2;
 const UNITS_OF_EDGE: u64 = 6;
 
 impl OccluderCache {
-    /// Nothing is known yet of the tile that covers this cell, with pixels of this side.
+    /// Nothing is known yet of the tile that covers this cell, with pixels whose shorter side is this.
     pub(crate) fn new(tile: Cell, pixel: f64) -> Self {
         Self {
             tile,
@@ -95,7 +95,7 @@ impl OccluderCache {
         }
     }
 
-    /// Forgets a tile, and begins with the one that covers this cell, with pixels of this side, where occluders may cost so
+    /// Forgets a tile, and begins with the one that covers this cell, with pixels whose shorter side is this, where occluders may cost so
     /// many units.
     pub(crate) fn begin(&mut self, tile: Cell, pixel: f64, most_units: u64) {
         self.tile = tile;

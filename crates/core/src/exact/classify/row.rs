@@ -7,7 +7,7 @@ use super::patch::{Patch, Side};
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::budget::MOST_SPHERES;
-use crate::exact::context::Context;
+use crate::exact::context::{Context, Sides};
 use crate::exact::crowd::{CrowdWork, FEWEST};
 use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
@@ -49,11 +49,11 @@ pub(crate) fn classify_row<S: Simd>(
     (candidates, balls): (&[usize], &[Ball]),
     coverages: &mut Vec<Coverage>,
 ) {
-    let (ray, size) = context.rays(simd, Tile { width: 1, ..row });
+    let (ray, sides) = context.rays(simd, Tile { width: 1, ..row });
     let all = (1_u64 << row.width) - 1;
     let mut end = f64x8::splat(simd, f64::INFINITY);
     for (&sphere, ball) in candidates.iter().zip(balls) {
-        let extent = extent(simd, &ray, size, ball);
+        let extent = extent(simd, &ray, &sides, ball);
         // What begins behind what fills a pixel is not seen there.
         let is_open = !extent.nearest.simd_gt(end);
         let touched = extent.touched.to_bitmask() & all;
@@ -66,7 +66,7 @@ pub(crate) fn classify_row<S: Simd>(
             ball: *ball,
             touched,
             covered: extent.covered.to_bitmask() & all,
-            within: within_outline(simd, context, (&ray, size), sphere, ball),
+            within: within_outline(simd, context, (&ray, &sides), sphere, ball),
             nearest: extent.nearest.into(),
             farthest: extent.farthest.into(),
         });
@@ -88,7 +88,7 @@ pub(crate) fn classify_row<S: Simd>(
 fn within_outline<S: Simd>(
     simd: S,
     context: &Context<'_>,
-    (ray, size): (&Vectors<S>, f64),
+    (ray, sides): (&Vectors<S>, &Sides),
     sphere: usize,
     ball: &Ball,
 ) -> u64 {
@@ -97,7 +97,7 @@ fn within_outline<S: Simd>(
     }
     match context.scene.inside_outline(sphere, ball) {
         None => !0,
-        Some(inside) => extent(simd, ray, size, &inside).covered.to_bitmask(),
+        Some(inside) => extent(simd, ray, sides, &inside).covered.to_bitmask(),
     }
 }
 
@@ -106,7 +106,7 @@ fn within_outline<S: Simd>(
 /// With u the roundoff, B = d · c and |d × c| are off by 4 u |d| |c|, and the squares that Q is the difference of
 /// by 8 u of what they are. Where Q is about 0, B² = A K and |d × c|² = r² A, so that Q is off by no more than
 /// 8 u A r (|c| + r) ≤ 20 u A r √K where K ≥ r², and 8 u A √K (|c| + √K) ≤ 20 u A r √K elsewhere. The slope of Q
-/// along the retina is 2 r √K or more there: times half a side, it is a part of the spread.
+/// along the retina is 2 r √K or more there: times half of the shorter side, it is a part of the spread.
 const ROUNDINGS: f64 = 32.0 * UNIT_ROUNDOFF;
 
 /// The part of a ball before their plane that eight pixels see through parallel rays: it begins at c_z − √Q⁺, and
@@ -115,12 +115,13 @@ const ROUNDINGS: f64 = 32.0 * UNIT_ROUNDOFF;
 /// With u the roundoff the center is off by 8 u |c|, and the ray by 4 u of its place, which moves Q by twice the
 /// radius times that where it is about 0; the slope there is 2 r, so that this is a move of the ray by as much.
 #[inline(always)]
-fn parallel_extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<S> {
+fn parallel_extent<S: Simd>(simd: S, ray: &Vectors<S>, sides: &Sides, ball: &Ball) -> Extent<S> {
     let (c, r) = (ball.center, ball.radius);
     let discriminant = Discriminant::new(ray, ray.x * 0.0 + 1.0, ball);
     let q = discriminant.value;
     let [by_u, by_v] = discriminant.half_slopes;
-    let second = 0.25 * size * size * bend(ball);
+    let longer = sides.longer();
+    let second = 0.25 * longer * longer * bend(ball);
     let aside = ray.x.abs() + ray.y.abs();
     let scale = if ball.is_apart() {
         aside * 0.0 + (c.length() + r)
@@ -129,8 +130,8 @@ fn parallel_extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -
         terms * (0.5 / r)
     };
     let moved = (aside + scale) * ROUNDINGS;
-    let slack = moved * (2.0 * r + size) + moved * moved;
-    let spread = (by_u.abs() + by_v.abs()) * size + second;
+    let slack = moved * (2.0 * r + longer) + moved * moved;
+    let spread = (by_u.abs() + by_v.abs() * sides.height_by_width) * sides.width + second;
     let slack = slack + spread * GEOMETRY_SLACK + q.abs() * GEOMETRY_SLACK;
     let (lowest, highest) = (q - spread - slack, q + spread + slack);
     let zero = f64x8::splat(simd, 0.0);
@@ -170,31 +171,36 @@ fn cut_extent<S: Simd>(simd: S, ball: &Ball, [lowest, highest]: [f64x8<S>; 2]) -
     }
 }
 
-/// The part of a ball that eight pixels of this size see, with these rays through their middles, whose third
+/// The part of a ball that eight pixels with these sides see, with these rays through their middles, whose third
 /// component is 1.
 ///
 /// In a pixel Q and B differ from their values in the middle by less than their spread. From outside, what
 /// is seen of a sphere begins at K / (B⁺ + √Q⁺) and ends at K / (B⁻ + √Q⁻).
 #[inline(always)]
-fn extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<S> {
+fn extent<S: Simd>(simd: S, ray: &Vectors<S>, sides: &Sides, ball: &Ball) -> Extent<S> {
     if ball.is_parallel() {
-        return parallel_extent(simd, ray, size, ball);
+        return parallel_extent(simd, ray, sides, ball);
     }
+    let Sides {
+        width,
+        height_by_width,
+    } = *sides;
+    let longer = sides.longer();
     let (u, v) = (ray.x, ray.y);
     let ray_sq = u * u + v * v + 1.0;
     let (c, k) = (ball.center, ball.outside);
     let discriminant = Discriminant::new(ray, ray_sq, ball);
-    let along_spread = 0.5 * size * (c.x.abs() + c.y.abs());
+    let along_spread = 0.5 * width * (c.x.abs() + c.y.abs() * height_by_width);
 
     // Bounds of Q, and so of its root.
     let Discriminant {
         along, value: q, ..
     } = discriminant;
     let [by_u, by_v] = discriminant.half_slopes;
-    let second = 0.25 * size * size * bend(ball);
+    let second = 0.25 * longer * longer * bend(ball);
     // Half of the derivatives, which are twice these.
-    let spread = (by_u.abs() + by_v.abs()) * size + second;
-    let moved = ray_sq * (ROUNDINGS / size) + GEOMETRY_SLACK;
+    let spread = (by_u.abs() + by_v.abs() * height_by_width) * width + second;
+    let moved = ray_sq * (ROUNDINGS / sides.shorter()) + GEOMETRY_SLACK;
     let slack = spread * moved + q.abs() * GEOMETRY_SLACK;
     let (lowest, highest) = (q - spread - slack, q + spread + slack);
     let zero = f64x8::splat(simd, 0.0);
@@ -211,7 +217,7 @@ fn extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<
         }
     } else {
         // From the inside: t = (B + √Q) / A.
-        let half = (u.abs() + v.abs()) * size + 0.5 * size * size;
+        let half = (u.abs() + v.abs() * height_by_width) * width + 0.5 * longer * longer;
         let everywhere = mask64x8::splat(simd, true);
         Extent {
             touched: everywhere,

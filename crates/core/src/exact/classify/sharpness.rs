@@ -75,7 +75,8 @@ impl Contents {
             // The patch is no longer than this.
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
-            let turn = 0.5 * length / active.ball.radius + cell.turn()[0];
+            let [by_x, by_y] = cell.turn();
+            let turn = 0.5 * length / active.ball.radius + by_x.max(by_y);
             let finish = Finish::new(scene, active.sphere, self.pixel);
             // On bumps rules are at most a quarter of a cell of the noise from the middles of their parts.
             let cells = finish.shading_normal.cells();

@@ -195,6 +195,7 @@ fn occluders_are_all_spheres_that_matter() {
                 width: 2.0,
                 distance: 2.0,
                 shift: DVec2::ZERO,
+                pixel_aspect: 1.0,
             },
             zoom: 1.0,
             width: 8,
@@ -205,7 +206,7 @@ fn occluders_are_all_spheres_that_matter() {
         for _ in 0..20 {
             let tile = Cell {
                 middle: (random.point() * 0.4).with_z(1.0),
-                size: [magnitude(&mut random, 1e-3, 0.3); 2],
+                size: [0; 2].map(|_| magnitude(&mut random, 1e-3, 0.3)),
                 projection: crate::model::camera::Projection::Central,
             };
             let mut cache = OccluderCache::new(tile, tile.size[0] / 8.0);
@@ -265,6 +266,7 @@ fn coincident_spheres_cast_no_shadow_on_each_other() {
             width: 2.0,
             distance: 1.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: 8,

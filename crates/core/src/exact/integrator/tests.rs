@@ -73,6 +73,7 @@ fn view() -> View {
             width: 2.0,
             distance: 3.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: 29,

@@ -83,7 +83,7 @@ pub(super) struct Domain<'a, S: Simd> {
     ray_sq: f64x8<S>,
     /// The pixels that have one.
     pub(super) is_known: mask64x8<S>,
-    /// Half a side of the pixel over h.
+    /// Half of the longer side of the pixel over h.
     pub(super) share: f64x8<S>,
     /// h.
     reach: f64x8<S>,
@@ -128,7 +128,7 @@ pub(super) struct TowardEye<S: Simd> {
 }
 
 impl<'a, S: Simd> Domain<'a, S> {
-    /// The domain of pixels with these rays through their middles and this side.
+    /// The domain of pixels with these rays through their middles, whose longer side is this.
     #[inline(always)]
     pub(super) fn new(simd: S, ball: &'a Ball, ray: &Vectors<S>, size: f64) -> Self {
         /// More than normals are off by, over (1 + |c| / r) and the cosine of the angle of incidence at the middle,

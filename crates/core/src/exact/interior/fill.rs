@@ -124,7 +124,7 @@ fn fill_lit<S: Simd>(
     noise: &mut Option<Box<NoiseCells>>,
     pixels: &mut [Pixel],
 ) -> FilledPixels {
-    let (middle, size) = context.rays(simd, row.start);
+    let (middle, sides) = context.rays(simd, row.start);
     let mut lit = reached.lit;
     for lit in &mut lit {
         *lit &= which;
@@ -134,7 +134,7 @@ fn fill_lit<S: Simd>(
         ball: &row.coverage.ball,
         finish,
         middle,
-        size: [size; 2],
+        size: sides.both(),
         lit: &lit,
         turn: reached.turn,
         view_turn: reached.view_turn,

@@ -46,7 +46,7 @@ impl MeanNormals {
     ) -> Self {
         let zero = f64x8::splat(simd, 0.0);
         let ball = &row.coverage.ball;
-        let (middle, size) = context.rays(simd, row.start);
+        let (middle, sides) = context.rays(simd, row.start);
         let domain = &analytic.domain;
         let [change, bend] = domain.of_any_light(&analytic.eye);
         let p = domain.share * domain.share;
@@ -54,7 +54,7 @@ impl MeanNormals {
         let is_met = (change * MIDDLE.of(p)).simd_le(tolerance);
         let is_star = (change.min(bend) * STAR.of(p)).simd_le(tolerance);
 
-        let of_middle = (ball, &middle, size);
+        let of_middle = (ball, &middle, sides.both());
         let mut mean = normal(simd, of_middle, &POINTS[0]);
         let mut samples = 1;
         let (mut star, mut grid) = (mean.times(zero), mean.times(zero));
@@ -149,16 +149,16 @@ impl MeanNormals {
     }
 }
 
-/// The normals at a sample of eight pixels with these rays through their middles and this side.
+/// The normals at a sample of eight pixels with these rays through their middles and these sides.
 #[inline(always)]
 fn normal<S: Simd>(
     simd: S,
-    (ball, middle, size): (&Ball, &Vectors<S>, f64),
+    (ball, middle, [width, height]): (&Ball, &Vectors<S>, [f64; 2]),
     sample: &Sample,
 ) -> Vectors<S> {
     let ray = Vectors {
-        x: middle.x + sample.u * size,
-        y: middle.y + sample.v * size,
+        x: middle.x + sample.u * width,
+        y: middle.y + sample.v * height,
         z: middle.z,
     };
     Points::new(simd, ball, ray).normal

@@ -3,7 +3,7 @@
 //! Let f = n·l in a pixel, in sides from its middle, L its value and slope there, and q what its second derivatives add.
 //! The average of max(0, L) has a closed form, and max(0, f) differs from that by |q| + |f − L − q| at most. With the
 //! sizes |a_jk| ≤ M s^(j+k) of the coefficients of f where half a side is 1 (see [`remainder`](super::remainder)), s
-//! being half a side over h, the last is no more than
+//! being half of the longer side over h, the last is no more than
 //!
 //! ```text
 //! Σ M s^m (m + 1) over m ≥ 3,    M s³ (4 − 3 s) / (1 − s)².
@@ -37,18 +37,20 @@ impl Ramps {
         const OF_PARALLEL: f64 = 4e-9;
         let one = f64x8::splat(simd, 1.0);
         let Analytic {
-            ref domain, size, ..
+            ref domain, sides, ..
         } = *analytic;
         let cosine = domain.cosine(toward);
         let (slopes, of_slopes) = domain.slopes(toward);
-        let across = [slopes[0] * size, slopes[1] * size];
+        let (width, ratio) = (sides.width, sides.height_by_width);
+        let across = [slopes[0] * width, slopes[1] * ratio * width];
         let averages = ramp(simd, cosine.value, across);
         let s = domain.share;
         let rest = one - s;
         let s_sq = s * s;
         let higher = cosine.change * (s * s_sq) * (one * 4.0 - s * 3.0) / (rest * rest);
         let [by_x, by_both, by_y] = domain.bends(toward);
-        let bend = (by_x.abs() + by_both.abs() * 2.0 + by_y.abs()) * (size * size / 8.0);
+        let by_rows = by_y.abs() * (ratio * ratio);
+        let bend = (by_x.abs() + by_both.abs() * (2.0 * ratio) + by_rows) * (width * width / 8.0);
         let steep = across[0].abs() + across[1].abs();
         let rounding = cosine.rounding
             + steep * (of_slopes + OF_PARALLEL)

@@ -8,7 +8,7 @@ use super::half_turns::{nearness_of_silhouette, view_turn};
 use crate::edges::cell::Ball;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::occluders::Occluder;
-use crate::exact::context::{Context, NEGLIGIBLE};
+use crate::exact::context::{Context, NEGLIGIBLE, Sides};
 use crate::exact::points::Points;
 use crate::exact::scene::{Light, MOST_LIGHTS};
 use crate::exact::surface::Finish;
@@ -35,20 +35,20 @@ pub(super) struct Reached<S: Simd> {
     pub(super) nearness: f64x8<S>,
 }
 
-/// The domains in which the normals of eight pixels are analytic, and the side of a pixel on the retina at distance 1.
+/// The domains in which the normals of eight pixels are analytic, and the sides of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Analytic<'a, S: Simd> {
     pub(super) domain: Domain<'a, S>,
     pub(super) eye: TowardEye<S>,
-    pub(super) size: f64,
+    pub(super) sides: Sides,
 }
 
 /// The extents of a sphere that fills eight pixels: the same under all lights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extents<'a, S: Simd> {
-    /// The rays through the middles, and the side of a pixel on the retina at distance 1.
+    /// The rays through the middles, and the sides of a pixel.
     ray: Vectors<S>,
-    size: f64,
+    sides: Sides,
     points: Points<S>,
     /// The least and the largest distance, in multiples of the rays, and how far other points lie from the rays.
     depths: [f64x8<S>; 2],
@@ -73,11 +73,11 @@ impl<'a, S: Simd> Extents<'a, S> {
         let ball: &'a Ball = &row.coverage.ball;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let (ray, size) = context.rays(simd, row.start);
+        let (ray, sides) = context.rays(simd, row.start);
         let points = Points::new(simd, ball, ray);
         let nearest: f64x8<S> = f64x8::from_array(simd, row.coverage.nearest);
         let farthest: f64x8<S> = f64x8::from_array(simd, row.coverage.farthest);
-        let half_diagonal = size * std::f64::consts::FRAC_1_SQRT_2 * WIDER;
+        let half_diagonal = sides.half_diagonal() * WIDER;
         let length = points.ray_sq.sqrt();
         let away = (farthest - points.t).max(points.t - nearest) * length;
         let mut around = farthest * half_diagonal + farthest * length * GEOMETRY_SLACK;
@@ -91,7 +91,7 @@ impl<'a, S: Simd> Extents<'a, S> {
         let view_turn = view_turn(ball, length, half_diagonal);
         Self {
             ray,
-            size,
+            sides,
             points,
             depths: [nearest, farthest],
             around,
@@ -99,11 +99,11 @@ impl<'a, S: Simd> Extents<'a, S> {
             view_turn,
             nearness: nearness_of_silhouette(turn, view_turn, grazing),
             analytic: if is_analytic {
-                let domain = Domain::new(simd, ball, &ray, size);
+                let domain = Domain::new(simd, ball, &ray, sides.longer());
                 Some(Analytic {
                     eye: domain.toward_eye(),
                     domain,
-                    size,
+                    sides,
                 })
             } else {
                 None
@@ -150,7 +150,7 @@ impl<S: Simd> Reached<S> {
         let ball = &row.coverage.ball;
         let Extents {
             ref ray,
-            size,
+            sides,
             ref points,
             depths: [nearest, farthest],
             around,
@@ -214,7 +214,7 @@ impl<S: Simd> Reached<S> {
                 let negligible = NEGLIGIBLE * context.tolerance;
                 let mut turn = turn;
                 if !ball.is_parallel() {
-                    turn += size;
+                    turn += sides.longer();
                 }
                 let sharp = finish.too_sharp(simd, points, light, turn, SHARPEST, negligible);
                 hard |= sharp & reached;

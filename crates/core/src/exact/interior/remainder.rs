@@ -191,7 +191,7 @@ impl<'a, S: Simd> Filled<'a, S> {
 
 /// Pixels in their domains, and the rules that they are averaged by.
 struct Pixels<S: Simd> {
-    /// Half a side over h.
+    /// Half of the longer side over h.
     share: f64x8<S>,
     /// The square of that, and what the rules miss, over M.
     p: f64x8<S>,

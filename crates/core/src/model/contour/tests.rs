@@ -7,6 +7,9 @@ use crate::model::camera::{Camera, Lens};
 use crate::numeric::angle::Angle;
 use crate::search::tests::Random;
 
+/// Square pixels, wide ones and high ones.
+const ASPECTS: [f64; 3] = [1.0, 2.7, 0.3];
+
 fn view() -> View {
     let degrees = Angle::from_degrees;
     View {
@@ -20,6 +23,7 @@ fn view() -> View {
             width: 3.0,
             distance: 2.0,
             shift: DVec2::new(0.2, -0.1),
+            pixel_aspect: 1.0,
         },
         zoom: 1.3,
         width: 90,
@@ -52,11 +56,17 @@ fn spheres_ahead(view: &View) -> Vec<Sphere> {
 
 #[test]
 fn rays_through_a_contour_touch_the_sphere() {
-    let view = view();
-    for sphere in spheres_ahead(&view) {
-        let contour = view.contour(&sphere);
+    let mut view = view();
+    let spheres = spheres_ahead(&view);
+    for (sphere, aspect) in ASPECTS
+        .iter()
+        .flat_map(|aspect| spheres.iter().map(move |sphere| (sphere, *aspect)))
+    {
+        view.lens.pixel_aspect = aspect;
+        let contour = view.contour(sphere);
         let ellipse = contour.ellipse.unwrap();
         let [long, short] = ellipse.semi_axes;
+        assert!(long >= short);
         let [low, high] = ellipse.bounds();
         let across = DVec2::new(-ellipse.along.y, ellipse.along.x);
         let mut reached = [DVec2::INFINITY, DVec2::NEG_INFINITY];

@@ -20,6 +20,7 @@ fn view(camera: Camera) -> View {
             width: 3.0,
             distance: 2.5,
             shift: DVec2::new(0.4, -0.7),
+            pixel_aspect: 1.0,
         },
         zoom: 1.7,
         width: 640,
@@ -131,11 +132,83 @@ fn the_way_back_leads_to_the_same_camera() {
         zoom: 1.0,
         ..view
     });
-    assert_eq!(again.focal_length, matrix.focal_length);
+    assert_eq!(again.focal_lengths, matrix.focal_lengths);
     assert!((again.principal_point - matrix.principal_point).length() < 1e-13);
     let centered = Intrinsics {
-        focal_length: 500.0,
+        focal_lengths: DVec2::splat(500.0),
         principal_point: DVec2::new(319.5, 240.0),
     };
     assert_eq!(centered.lens(640, 481).shift, DVec2::ZERO);
+}
+
+/// A camera whose focal lengths differ, and its points as OpenCV has them.
+///
+/// # Source
+/// `cv2.projectPoints` of opencv-python-headless 5.0.0, with the rotation vector (0.3, −0.7, 0.2) and the
+/// translation (−0.1, 0.1, 0.7).
+#[test]
+fn points_are_where_opencv_projects_them_with_two_focal_lengths() {
+    const POINTS: [([f64; 3], [f64; 2]); 6] = [
+        (
+            [0.0, 0.0, 0.0],
+            [243.488_042_857_142_83, 323.987_622_857_142_87],
+        ),
+        (
+            [0.05, 0.0, 0.0],
+            [276.386_365_816_965_3, 323.448_719_923_973_16],
+        ),
+        (
+            [0.0, -0.05, 0.02],
+            [245.578_058_865_769_66, 279.800_704_515_363],
+        ),
+        (
+            [-0.21, 0.17, 0.4],
+            [-26.931_049_101_011_98, 312.006_166_861_410_1],
+        ),
+        (
+            [0.33, -0.29, -0.25],
+            [645.186_006_836_013_3, 189.941_345_075_586],
+        ),
+        (
+            [0.02, 0.03, 0.04],
+            [235.392_199_021_533_26, 331.196_138_460_737_2],
+        ),
+    ];
+    let intrinsics = Intrinsics {
+        focal_lengths: DVec2::new(572.4114, 573.57043),
+        principal_point: DVec2::new(325.2611, 242.04899),
+    };
+    let rotation = [
+        [
+            0.748_411_816_858_909_5,
+            -0.279_650_507_407_814_4,
+            -0.601_394_501_215_714_6,
+        ],
+        [
+            0.080_278_739_635_629_47,
+            0.938_289_690_927_657,
+            -0.336_404_191_206_644_5,
+        ],
+        [
+            0.658_357_863_436_338_8,
+            0.203_489_679_358_521_2,
+            0.724_677_082_600_316,
+        ],
+    ];
+    let place = Extrinsics {
+        rotation: DMat3::from_cols_array_2d(&rotation).transpose(),
+        translation: DVec3::new(-0.1, 0.1, 0.7),
+    };
+    let lens = intrinsics.lens(640, 480);
+    let view = View::new(place.camera(), lens, 640, 480);
+    for (point, expected) in POINTS {
+        let [x, y, z] = point;
+        let found = view.project(DVec3::new(x, y, -z)).unwrap() - 0.5;
+        let off = (found - DVec2::from_array(expected)).length();
+        assert!(off < 1e-9, "{found} {expected:?}");
+    }
+    let again = Intrinsics::of(&view);
+    let off = again.focal_lengths - intrinsics.focal_lengths;
+    assert!(off.length() < 1e-12, "{off}");
+    assert!((again.principal_point - intrinsics.principal_point).length() < 1e-12);
 }

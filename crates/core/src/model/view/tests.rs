@@ -10,6 +10,7 @@ fn view() -> View {
             width: 8.0,
             distance: 10.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: 4,
@@ -23,6 +24,22 @@ fn pixel_centers_lie_on_the_retina_from_the_top_left() {
     assert_eq!(view().cell_center(0, 0, 1), DVec2::new(-3.0, 2.0));
     assert_eq!(view().cell_center(3, 2, 1), DVec2::new(3.0, -2.0));
     assert_eq!(view().cell_center(0, 0, 2), DVec2::new(-3.5, 2.5));
+}
+
+/// Pixels 2 wide and 5 high.
+#[test]
+fn pixels_may_be_rectangles() {
+    let mut view = view();
+    view.lens.pixel_aspect = 0.4;
+    assert_eq!(view.pixel_size(), DVec2::new(2.0, 5.0));
+    assert_eq!(view.cell_center(0, 0, 1), DVec2::new(-3.0, 5.0));
+    assert_eq!(view.cell_center(3, 2, 1), DVec2::new(3.0, -5.0));
+    assert_eq!(view.cell_center(0, 0, 2), DVec2::new(-3.5, 6.25));
+    assert_eq!(view.pixels_per_unit(), DVec2::new(5.0, 2.0));
+    assert_eq!(view.screen_window().1, DVec2::new(0.8, 1.5));
+    // 5 to the right and 2 up on the retina: 2.5 columns, 0.4 rows.
+    let seen = view.project(DVec3::new(1.0, 0.4, 2.0));
+    assert_eq!(seen, Some(DVec2::new(2.0 + 2.5, 1.5 - 0.4)));
 }
 
 #[test]
@@ -39,10 +56,10 @@ fn the_screen_window_is_what_rays_span_at_distance_1() {
     let mut view = view();
     view.lens.shift = DVec2::new(5.0, -1.0);
     view.zoom = 3.0;
-    let (center, width) = view.screen_window();
+    let (center, size) = view.screen_window();
     assert_eq!(
-        (center.x, center.y, width),
-        (5.0 / 30.0, -1.0 / 30.0, 8.0 / 30.0)
+        (center.x, center.y, size),
+        (5.0 / 30.0, -1.0 / 30.0, DVec2::new(8.0, 6.0) / 30.0)
     );
     let at_distance_1 = |u: f64, v: f64| {
         let ray = view.ray(view.lens.shift + DVec2::new(u, v));
@@ -51,7 +68,7 @@ fn the_screen_window_is_what_rays_span_at_distance_1() {
     let left = at_distance_1(-4.0, 0.0);
     let right = at_distance_1(4.0, 0.0);
     assert!((0.5 * (left + right) - center).length() < 1e-15);
-    assert!((right.x - left.x - width).abs() < 1e-15);
+    assert!((right.x - left.x - size.x).abs() < 1e-15);
 }
 
 #[test]

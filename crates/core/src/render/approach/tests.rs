@@ -28,6 +28,7 @@ fn view(width: u32) -> View {
             width: 1.0,
             distance: 1.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width,
@@ -96,8 +97,13 @@ fn spheres_between_samples_are_integrated() {
     world.add_sphere(small(0.017), material);
     let still = Exposure::from(&view(100));
     assert_eq!(approach_of(&world, &still, 0.4, false).method, samples(3));
-    world.add_sphere(small(0.016), material);
+    // Of pixels twice as high as wide, 0.017 is less than a third of the height.
+    let mut high = view(100);
+    high.lens.pixel_aspect = 0.5;
     let integrated = Method::Tolerance(0.4);
+    let approach = approach_of(&world, &(&high).into(), 0.4, false);
+    assert_eq!(approach.method, integrated);
+    world.add_sphere(small(0.016), material);
     assert_eq!(approach_of(&world, &still, 0.4, false).method, integrated);
 }
 

@@ -19,6 +19,7 @@ fn view(width: u32, height: u32) -> View {
             width: f64::from(width),
             distance: 40.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width,

@@ -28,6 +28,7 @@ fn ball() -> (World, View, Settings) {
             width: 3.0,
             distance: 5.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: 37,

@@ -31,6 +31,7 @@ fn ball(width: u32, height: u32) -> (World, View) {
             width: 3.0,
             distance: 5.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width,

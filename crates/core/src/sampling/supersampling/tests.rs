@@ -34,6 +34,7 @@ fn scene() -> (World, View) {
             width: 2.0,
             distance: 1.0,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: 2,

@@ -10,7 +10,7 @@ use crate::model::view::View;
 use crate::numeric::angle::Angle;
 use crate::picture::tile::Tile;
 use crate::sampling::rays::{Place, Rays};
-use crate::search::tests::Random;
+use crate::search::tests::{Random, aspect};
 
 /// A view from anywhere in any direction, and a tile of it that may be cut short.
 fn view(random: &mut Random) -> (View, Tile) {
@@ -22,6 +22,7 @@ fn view(random: &mut Random) -> (View, Tile) {
         width: 0.1 + 2.0 * random.number(),
         distance: 1.0,
         shift: DVec2::new(random.number() - 0.5, random.number() - 0.5),
+        pixel_aspect: aspect(random),
     };
     let view = View {
         camera,

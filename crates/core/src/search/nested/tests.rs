@@ -87,6 +87,7 @@ fn an_eye_inside_sees_them() {
                 width: 2.0,
                 distance,
                 shift: glam::DVec2::ZERO,
+                pixel_aspect: 1.0,
             },
             zoom: 1.0,
             width: 8,

@@ -17,6 +17,7 @@ fn tiles_ask_few_spheres() {
         width: 600.0,
         distance: 700.0,
         shift: DVec2::ZERO,
+        pixel_aspect: 1.0,
     };
     let view = View {
         camera,

@@ -17,10 +17,10 @@ pub(super) fn distance(view: &View, spheres: &[Sphere]) -> Option<f64> {
 
 /// The same for a part of the picture's sides.
 fn median(view: &View, spheres: &[Sphere], part: f64) -> Option<f64> {
-    let aspect = f64::from(view.height) / f64::from(view.width);
+    let lens = &view.lens;
+    let aspect = f64::from(view.height) / f64::from(view.width) / lens.pixel_aspect;
     let rows = libm::round(f64::from(COLUMNS) * aspect).clamp(1.0, f64::from(COLUMNS)) as u32;
     let side = |index: u32, count: u32| (f64::from(index) + 0.5) / f64::from(count) - 0.5;
-    let lens = &view.lens;
     let points = (0..rows).flat_map(|row| (0..COLUMNS).map(move |col| (col, row)));
     let rays: Vec<Ray> = points
         .map(|(col, row)| {

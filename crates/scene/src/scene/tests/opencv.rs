@@ -36,10 +36,15 @@ fn a_matrix_is_a_retina_in_pixels() {
     assert_eq!(scene(described, AHEAD, "").description().lens, described);
 }
 
+/// Columns are 1/500 of the distance wide, and rows 1/200 high.
 #[test]
-fn focal_lengths_may_differ_by_rounding() {
-    let lens = view("Matrix(fx: 500, fy: 500.0000004, cx: 0, cy: 0)", AHEAD).lens;
-    assert!((lens.distance - 500.0000002).abs() < 1e-12);
+fn pixels_of_a_matrix_may_be_rectangles() {
+    let lens = "Matrix(fx: 500, fy: 200, cx: 320, cy: 230)";
+    let view = view(lens, AHEAD);
+    assert_eq!((view.lens.distance, view.lens.pixel_aspect), (500.0, 0.4));
+    let seen = view.project(DVec3::new(0.2, 0.1, 2.0));
+    assert_eq!(seen, Some(DVec2::new(320.5 + 50.0, 230.5 - 10.0)));
+    assert_eq!(scene(lens, AHEAD, "").description().lens, lens);
 }
 
 #[test]
@@ -113,4 +118,20 @@ fn a_frame_camera_frames_with_a_matrix() {
         (middle - DVec2::new(320.0, 240.5)).length() < 1e-9,
         "{middle}"
     );
+}
+
+/// The contour of a ball ahead has the half axes f r / √(d² − r²), of which the longer one, in shares of the picture,
+/// reaches the border: 320 columns, or 240.5 rows.
+#[test]
+fn a_frame_camera_knows_rectangular_pixels() {
+    let balls = "spheres: [(center: (0, 0, 0), radius: 1)]";
+    for ([fx, fy], half) in [([500.0, 200.0], 320.0), ([200.0, 500.0], 240.5)] {
+        let lens = format!("Matrix(fx: {fx}, fy: {fy}, cx: 319.5, cy: 240)");
+        let scene = scene(&lens, "Frame(fill: 1)", balls);
+        let view = scene.view(1).unwrap();
+        let ellipse = view.contour(&scene.world().spheres()[0]).ellipse.unwrap();
+        let [long, short] = ellipse.semi_axes;
+        assert!((long - half).abs() < 1e-6, "{long}");
+        assert!((short / long - 0.4).abs() < 1e-12, "{short}");
+    }
 }

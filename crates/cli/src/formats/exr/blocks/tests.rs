@@ -33,6 +33,7 @@ fn facts() -> Facts {
                 width: 6.0,
                 distance: 4.0,
                 shift: DVec2::new(0.5, -1.0),
+                pixel_aspect: 1.25,
             },
             zoom: 2.0,
             ..view()
@@ -152,6 +153,7 @@ fn the_header_tells_the_facts() {
     }
     assert_eq!(attributes.screen_window_center, Vec2(0.0625, -0.125));
     assert_eq!(attributes.screen_window_width, 0.75);
+    assert_eq!(file.attributes.pixel_aspect, 1.25);
     let matrix = attributes.world_to_camera.unwrap().map(f64::from);
     let to_a_tolerance = Facts {
         method: Method::Tolerance(1e-3),

@@ -8,6 +8,7 @@ use super::curve::{Shape, trace, warped};
 use super::hard_arcs::{roots_at_ends, spans_bumps};
 use super::primitive::{Lines, Sender, greatest};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Region, Setting, Sum};
+use crate::edges::cell::Cell;
 use crate::exact::classify::contents::Contents;
 use crate::exact::edged::rule::{MIDDLE, RULE, doubt, error_estimate};
 use crate::exact::scene::InCamera;
@@ -98,7 +99,7 @@ impl Boundary {
                     self.add_halves(simd, setting, path, (arc, middle), depth, sum);
                     return;
                 }
-                let sign = sign(scene, setting.contents, curve, &places);
+                let sign = sign((scene, cell), setting.contents, curve, &places);
                 let rise = (arc.y[1] - arc.y[0]) * sign;
                 if !sends_light(setting, curve, arc) {
                     self.note_sides(curve, arc, rise);
@@ -312,7 +313,7 @@ pub(super) fn total<S: Simd>(lanes: f64x8<S>) -> f64 {
 /// 1 where the inner side lies to the left of a curve, -1 to its right.
 #[inline(always)]
 fn sign<S: Simd>(
-    scene: &InCamera<'_>,
+    (scene, cell): (&InCamera<'_>, &Cell),
     contents: &Contents,
     curve: &Curve,
     places: &Trace<S>,
@@ -392,5 +393,7 @@ fn sign<S: Simd>(
         x = inward.x * point.z - point.x * inward.z;
         y = inward.y * point.z - point.y * inward.z;
     }
-    (places.dx[MIDDLE] * y - places.dy[MIDDLE] * x).signum()
+    // Steps are in sides of the cell.
+    let [width, height] = cell.size;
+    (places.dx[MIDDLE] * y - places.dy[MIDDLE] * (height / width) * x).signum()
 }

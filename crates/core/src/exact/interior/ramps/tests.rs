@@ -11,7 +11,7 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::angle::Angle;
 use crate::picture::pixel::{Evidence, Pixel};
-use crate::search::tests::Random;
+use crate::search::tests::{Random, aspect};
 
 /// A white ball, a light along its surface in or beside the middle of the only pixel, and that pixel.
 struct Place {
@@ -53,6 +53,7 @@ impl Place {
                 width: of_pixel,
                 distance: if is_parallel { f64::INFINITY } else { 1.0 },
                 shift,
+                pixel_aspect: aspect(random),
             },
             zoom: 1.0,
             width: 1,
@@ -75,11 +76,12 @@ impl Place {
     fn average(&self) -> [f64; 2] {
         const SIDE: u32 = 400;
         let lens = self.view.lens;
-        let place = |index: u32| ((f64::from(index) + 0.5) / f64::from(SIDE) - 0.5) * lens.width;
+        let height = lens.width / lens.pixel_aspect;
+        let place = |index: u32| (f64::from(index) + 0.5) / f64::from(SIDE) - 0.5;
         let (mut sum, mut least, mut most) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
         for row in 0..SIDE {
             for col in 0..SIDE {
-                let at = lens.shift + DVec2::new(place(col), place(row));
+                let at = lens.shift + DVec2::new(place(col) * lens.width, place(row) * height);
                 let ray = match lens.distance.is_finite() {
                     true => Ray {
                         origin: DVec3::ZERO,

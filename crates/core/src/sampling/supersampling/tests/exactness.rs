@@ -40,6 +40,7 @@ fn view_from(position: DVec3, size: (u32, u32), distance: f64, turn: f64) -> Vie
             width: f64::from(size.0),
             distance,
             shift: DVec2::ZERO,
+            pixel_aspect: 1.0,
         },
         zoom: 1.0,
         width: size.0,

@@ -34,6 +34,7 @@ const VIEW: View = View {
         width: 1.0,
         distance: 1.0,
         shift: DVec2::ZERO,
+        pixel_aspect: 1.0,
     },
     zoom: 1.0,
     width: 1,

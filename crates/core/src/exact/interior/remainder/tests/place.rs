@@ -111,6 +111,7 @@ impl Place {
                 width: self.size,
                 distance: if self.is_parallel { f64::INFINITY } else { 1.0 },
                 shift: self.middle,
+                pixel_aspect: 1.0,
             },
             zoom: 1.0,
             width: 1,
