@@ -5,6 +5,7 @@
 //! edge of a shadow on a sphere crosses it in four at most.
 
 pub(crate) mod cell;
+pub(crate) mod cutoff;
 pub(crate) mod seam;
 pub(crate) mod shadow;
 pub(crate) mod silhouette;

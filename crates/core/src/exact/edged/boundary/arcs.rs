@@ -318,7 +318,9 @@ impl Boundary {
             Edge::Left | Edge::Right => (first, NONE),
             Edge::Limb => (curve.own[0], first),
             Edge::Seam => (curve.own[0], curve.own[1]),
-            Edge::Terminator(_) | Edge::Shadow(..) | Edge::Outline => (curve.own[0], curve.own[0]),
+            Edge::Terminator(_) | Edge::Cutoff(_) | Edge::Shadow(..) | Edge::Outline => {
+                (curve.own[0], curve.own[0])
+            }
         };
         let outlines = outlines(setting, curve, [inner, outer], (places, lanes.middle));
         let arc = Arc {

@@ -50,6 +50,8 @@ pub(super) enum Function {
     Rise,
     /// The cosine toward a light on the visible part of an active sphere.
     Lit(usize, usize),
+    /// How far that part lies ahead of the plane of the cutoff of a light.
+    Ahead(usize, usize),
     /// The depth of that part in the disc of a caster.
     Shaded(usize, usize),
 }
@@ -134,6 +136,15 @@ pub(super) fn value<S: Simd>(
                         None => f64x8::splat(simd, 1.0),
                     }
                 }
+                Function::Ahead(sphere, light) => {
+                    let ball = &contents.active[sphere].ball;
+                    let points =
+                        Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                    match setting.scene.lights[light].cutoff(ball) {
+                        Some(plane) => ahead(&plane, setting, (sphere, light), &points),
+                        None => f64x8::splat(simd, 1.0),
+                    }
+                }
                 Function::Shaded(sphere, caster) => {
                     let ball = &contents.active[sphere].ball;
                     let points =
@@ -196,6 +207,25 @@ pub(super) fn facing<S: Simd>(plane: &Plane, ball: &Ball, normal: &Vectors<S>) -
         facing
     } else {
         facing - plane.offset / ball.radius
+    }
+}
+
+/// How far points of an active sphere lie ahead of the plane of the cutoff of a light, in its radii.
+#[inline(always)]
+pub(super) fn ahead<S: Simd>(
+    plane: &Plane,
+    setting: &Setting<'_, '_>,
+    (sphere, light): (usize, usize),
+    points: &Points<S>,
+) -> f64x8<S> {
+    let ball = &setting.contents.active[sphere].ball;
+    match &setting.scene.lights[light].near {
+        // Near a large sphere the distance from its center would be all rounding.
+        Some(near) if !ball.is_apart() => {
+            let lamp = Vectors::splat(points.ray.x.simd(), near.position);
+            points.place().minus(&lamp).dot_one(plane.axis) * (1.0 / ball.radius)
+        }
+        _ => facing(plane, ball, &points.normal),
     }
 }
 

@@ -79,8 +79,8 @@ impl Boundary {
                         ..*whole
                     };
                     let places = stretch.places(simd, setting);
-                    // A terminator touches the level of its own highest place, which no change of sign tells.
-                    if may_turn || matches!(whole.curve.edge, Edge::Terminator(_)) {
+                    // A terminator or a cutoff touches the level of its own highest place, which no change of sign tells.
+                    if may_turn || matches!(whole.curve.edge, Edge::Terminator(_) | Edge::Cutoff(_)) {
                         let (level, breaks) = (Function::Rise, &mut self.breaks);
                         stretch.roots(simd, setting, level, places.dy, INTERVALS, breaks);
                     }

@@ -4,7 +4,7 @@ use fearless_simd::Simd;
 
 use super::arcs::{Lanes, add, between};
 use super::circle::Trace;
-use super::events::{Function, INTERVALS, Stretch, facing, in_disc, is_beyond};
+use super::events::{Function, INTERVALS, Stretch, ahead, facing, in_disc, is_beyond};
 use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::edges::terminator::Plane;
@@ -30,7 +30,7 @@ impl Boundary {
             let is_dark = [(arc.inner, 0), (arc.outer, 1)]
                 .map(|(sphere, side)| arc.outlines[side] || is_dark(setting, sphere));
             if is_dark == [true; 2] {
-                if !matches!(curve.edge, Edge::Terminator(_) | Edge::Shadow(..)) {
+                if curve.edge.light().is_none() {
                     add(&mut self.lit_arcs, arc);
                 }
                 continue;
@@ -105,7 +105,7 @@ impl Boundary {
 
     /// Adds a part of an arc that these lights reach, but for the event that the curve is.
     fn add_lit(&mut self, curve: &Curve, mut arc: Arc) {
-        if let Edge::Terminator(light) | Edge::Shadow(light, _) = curve.edge {
+        if let Some(light) = curve.edge.light() {
             if arc.lit[0] >> light & 1 == 0 {
                 return;
             }
@@ -158,6 +158,16 @@ impl Boundary {
                         dark = facing.simd_le(0.0).to_bitmask();
                     }
                     let mut closed = between(dark);
+                    let cutoff = cutoff_beside(setting, curve, sphere, light);
+                    let ahead = match cutoff {
+                        Some(plane) => Some(ahead(&plane, setting, (sphere, light), &points)),
+                        None => None,
+                    };
+                    if let Some(ahead) = ahead {
+                        let beyond = ahead.simd_le(0.0).to_bitmask();
+                        closed |= between(beyond);
+                        dark |= beyond;
+                    }
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
                             continue;
@@ -176,6 +186,10 @@ impl Boundary {
                     if let Some(facing) = facing {
                         let function = Function::Lit(sphere, light);
                         stretch.roots(simd, setting, function, facing, open, &mut self.breaks);
+                    }
+                    if let Some(ahead) = ahead {
+                        let function = Function::Ahead(sphere, light);
+                        stretch.roots(simd, setting, function, ahead, open, &mut self.breaks);
                     }
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
@@ -230,6 +244,10 @@ impl Boundary {
                         let facing = facing(&plane, &active.ball, &points.normal);
                         lit = facing.simd_gt(0.0).to_bitmask();
                     }
+                    if let Some(plane) = cutoff_beside(setting, curve, sphere, light) {
+                        let ahead = ahead(&plane, setting, (sphere, light), &points);
+                        lit &= ahead.simd_gt(0.0).to_bitmask();
+                    }
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
                             continue;
@@ -269,6 +287,18 @@ fn terminator_beside(
         _ => false,
     };
     (curve.own[0] != sphere || !is_here).then_some(plane)
+}
+
+/// The plane of the cutoff of a light on an active sphere; none on the cutoff itself.
+fn cutoff_beside(
+    setting: &Setting<'_, '_>,
+    curve: &Curve,
+    sphere: usize,
+    light: usize,
+) -> Option<Plane> {
+    let plane = setting.scene.lights[light].cutoff(&setting.contents.active[sphere].ball)?;
+    let is_here = curve.edge == Edge::Cutoff(light) && curve.own[0] == sphere;
+    (!is_here).then_some(plane)
 }
 
 /// Whether no light reaches an active sphere, or there is none.

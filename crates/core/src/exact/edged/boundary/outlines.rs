@@ -46,7 +46,7 @@ pub(super) fn outlines<S: Simd>(
     }
     match curve.edge {
         Edge::Outline => return [false, true],
-        Edge::Terminator(_) | Edge::Shadow(..) => return [false; 2],
+        Edge::Terminator(_) | Edge::Cutoff(_) | Edge::Shadow(..) => return [false; 2],
         Edge::Left | Edge::Right | Edge::Limb | Edge::Seam => {}
     }
     let mut outlines = [false; 2];

@@ -239,6 +239,7 @@ impl Boundary {
                 finish: &surface.finish,
                 reference: &surface.reference,
                 terminators: surface.terminators,
+                cutoffs: surface.cutoffs,
                 rules: &surface.rules,
                 tolerance: goal.tolerance,
             };
@@ -355,6 +356,14 @@ fn sign<S: Simd>(
                 (None, Some(plane)) => plane.axis,
                 (None, None) => return 0.0,
             }
+        }
+        (Edge::Cutoff(light), _) => {
+            let ball = &contents.active[curve.own[0]].ball;
+            let Some(plane) = scene.lights[light].cutoff(ball) else {
+                return 0.0;
+            };
+            let normal = (point - ball.center).normalize();
+            plane.axis - normal * normal.dot(plane.axis)
         }
         (
             Edge::Shadow(..),
