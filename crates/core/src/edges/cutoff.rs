@@ -52,7 +52,9 @@ mod tests {
             let conic = cutoff(&cell, &ball, &plane, position);
             // The ray (u, −v, 1) meets the floor at 1 / v: (u + 1) / v = 5.
             let at = |x: f64, y: f64| {
-                (x * conic.xx + y * conic.xy + conic.x) * x + (y * conic.yy + conic.y) * y + conic.one
+                (x * conic.xx + y * conic.xy + conic.x) * x
+                    + (y * conic.yy + conic.y) * y
+                    + conic.one
             };
             for y in [-0.3, 0.0, 0.3] {
                 let v = 0.25 - 0.1 * y;

@@ -6,12 +6,13 @@ use glam::{DMat3, DVec3};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::classify::patch::Patch;
+use super::parallel_begin::moved_ahead;
 use crate::edges::cell::Ball;
 use crate::edges::shadow::{Caster, Cone};
 use crate::edges::terminator::Plane;
 use crate::light::lobe::Lobe;
 use crate::light::near_light::NearLight;
-use crate::model::camera::{Camera, Projection};
+use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::light::Light as WorldLight;
 use crate::model::outline::OutlineView;
@@ -363,43 +364,6 @@ impl<'scene> InCamera<'scene> {
 
     pub(crate) fn in_world(&self, point: DVec3) -> DVec3 {
         self.viewpoint + self.world_from_camera * point
-    }
-}
-
-/// A viewpoint of parallel rays, moved along them to just before the nearest sphere that they may meet: how far away they
-/// begin changes nothing about them, but what rounding moves grows with it. Where their plane cuts a sphere it stays.
-fn moved_ahead(world: &World, camera: &Camera) -> DVec3 {
-    let (viewpoint, forward) = (camera.position, camera.forward());
-    let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
-    let begin = |sphere: &Sphere| {
-        let ahead = (sphere.center() - viewpoint).dot(forward);
-        let slack = WIDER * sphere.radius() + (ahead.abs() + viewpoint.length()) * (WIDER - 1.0);
-        if ahead >= slack {
-            // In the world, so that the place does not depend on the viewpoint's.
-            sphere.center().dot(forward) - WIDER * sphere.radius()
-        } else if ahead <= -slack {
-            f64::INFINITY
-        } else {
-            f64::NAN
-        }
-    };
-    let nearest = spheres.map(begin).reduce(
-        || f64::INFINITY,
-        |one, other| {
-            if one <= other {
-                one
-            } else if other < one {
-                other
-            } else {
-                f64::NAN
-            }
-        },
-    );
-    let moved = camera.on_axis_at(nearest);
-    if nearest.is_finite() && moved.is_finite() {
-        moved
-    } else {
-        viewpoint
     }
 }
 

@@ -156,7 +156,8 @@ impl Finish {
             if lights >> index & 1 == 1 {
                 let sum = &mut sum[..scene.channels];
                 let intensity = light.intensity;
-                let (cosine, half_cosine, factor) = light.on_points(points, &viewed, Beyond::Continued);
+                let (cosine, half_cosine, factor) =
+                    light.on_points(points, &viewed, Beyond::Continued);
                 if let Some(factor) = factor {
                     let mut own = [f64x8::splat(simd, 0.0); 3];
                     let own = &mut own[..scene.channels];

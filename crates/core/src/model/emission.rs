@@ -72,7 +72,10 @@ mod tests {
     fn refuses_what_is_no_direction_or_no_power() {
         for direction in [DVec3::ZERO, DVec3::NAN, DVec3::new(1.0, f64::INFINITY, 0.0)] {
             let refused = Emission::new(direction, 1.0);
-            assert!(matches!(refused, Err(LightError::Direction(_))), "{direction}");
+            assert!(
+                matches!(refused, Err(LightError::Direction(_))),
+                "{direction}"
+            );
         }
         for mu in [-1e-9, f64::NAN, f64::INFINITY] {
             let refused = Emission::new(DVec3::Z, mu);

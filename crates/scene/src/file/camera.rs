@@ -7,8 +7,8 @@ use serde::Deserialize;
 
 use crate::text::{Placed, present};
 use crate::values::{
-    Axis, Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Mu, Point,
-    Radius, Rotation, Shutter, Swing, Turns, Zoom,
+    Axis, Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Mu,
+    Point, Radius, Rotation, Shutter, Swing, Turns, Zoom,
 };
 
 /// The camera; a `Free` one stands at the origin and looks along z by default.

@@ -21,8 +21,8 @@ pub(crate) use self::table::{ElementRadii, Keep, Palette, RadiusColumn, Test, Wa
 use crate::text::{Placed, present};
 use crate::values::{
     Amplitude, Color, Coordinate, Exponent, FieldOfView, Flag, FocalLength, GrainSize, ImageSide,
-    LightName, MaterialName, Mu, Point, Radius, Reference, RetinaDistance, RetinaWidth, Seed, Shift,
-    Shininess, Strength, UnitName, Zoom,
+    LightName, MaterialName, Mu, Point, Radius, Reference, RetinaDistance, RetinaWidth, Seed,
+    Shift, Shininess, Strength, UnitName, Zoom,
 };
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.

@@ -2,7 +2,8 @@
 
 use glam::{DMat3, DVec3};
 use marbles_core::{
-    Camera, DirectionalLight, Emission as CoreEmission, Light as CoreLight, LightFalloff, PointLight,
+    Camera, DirectionalLight, Emission as CoreEmission, Light as CoreLight, LightFalloff,
+    PointLight,
 };
 
 use super::channels::{Keys, PointCurve};
@@ -292,7 +293,8 @@ fn emission(light: &file::Light, keys: &Keys<'_>) -> Option<Option<Emission>> {
     };
     let Some(facing) = facing else {
         if let Some(mu) = mu {
-            let message = "expected a `direction` beside `mu`: the one that the lamp faces; found none";
+            let message =
+                "expected a `direction` beside `mu`: the one that the lamp faces; found none";
             return refuse(mu.place.clone(), message);
         }
         return Some(None);

@@ -221,7 +221,7 @@ pub(super) const FAMILIES: [Family; 39] = [
         rarity: 1,
     },
     Family {
-        name: "LEDs and more",
+        name: "LED mixtures",
         draft: Maker::Row(leds_together),
         rarity: 2,
     },

@@ -17,7 +17,7 @@ fn surface(numbers: &mut Numbers) -> String {
         _ => String::new(),
     };
     let size = power_of_ten(numbers, 0.3, 1.3);
-    let rough = match numbers.below(6) {
+    let rough = match numbers.below(16) {
         0 => format!(", rough: (amplitude: 0.4, grain: Surface({size}), seed: 3)"),
         1 => ", rough: (amplitude: 0.3, grain: Pixel, seed: 3)".to_owned(),
         _ => String::new(),

@@ -52,8 +52,6 @@ impl Contents {
         let circle_sq = (ball.radius - plane.offset) * (ball.radius + plane.offset);
         let flat = ball.radius / circle_sq.max(0.0).sqrt().max(size);
         let length = lamp.length() + ball.center.length() + ball.radius;
-        self.rounding = self
-            .rounding
-            .max(ROUNDINGS * length * flat.max(1.0) / size);
+        self.rounding = self.rounding.max(ROUNDINGS * length * flat.max(1.0) / size);
     }
 }

@@ -3,7 +3,8 @@
 use fearless_simd::Simd;
 
 use super::circle::Trace;
-use super::events::{Function, INTERVALS, Stretch, polynomial, value};
+use super::events::{INTERVALS, Stretch};
+use super::functions::{Function, polynomial, value};
 use super::outlines::outlines;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Contents;

@@ -155,8 +155,7 @@ impl Sender<'_, '_> {
         divide(of_cutoff.high);
         let is_fractional = self.finish.has_fractional_exponent();
         let ends_at_terminator = is_fractional && self.terminators >> index & 1 == 1;
-        if ends_at_terminator
-            && let Some(plane) = self.active.terminators.plane(scene, ball, index)
+        if ends_at_terminator && let Some(plane) = self.active.terminators.plane(scene, ball, index)
         {
             let of_terminator = roots(simd, self, chord, lines.y, &plane);
             divide(of_terminator.low);
@@ -194,14 +193,7 @@ fn sort<S: Simd>(places: &mut [f64x8<S>]) {
 impl<S: Simd> Integrand<'_, '_, S> {
     /// Adds the integral between two places, where the lamp faces what is between them.
     #[inline(always)]
-    fn add(
-        &self,
-        simd: S,
-        start: f64x8<S>,
-        end: f64x8<S>,
-        noise: &mut Noise,
-        sum: &mut Summed<S>,
-    ) {
+    fn add(&self, simd: S, start: f64x8<S>, end: f64x8<S>, noise: &mut Noise, sum: &mut Summed<S>) {
         let middle = (start + end) * 0.5;
         let [constant, linear, square] = self.ahead;
         let ahead = (square * middle + linear) * middle + constant;
@@ -275,8 +267,7 @@ impl<S: Simd> Integrand<'_, '_, S> {
         let points = Points::new(simd, &active.ball, ray.times(one / at.denominator));
         let reflectance = &finish.reflectance;
         let viewed = finish.viewed(&points, &normal[0]);
-        let (cosine, half_cosine, factor) =
-            self.light.on_points(&points, &viewed, Beyond::Nothing);
+        let (cosine, half_cosine, factor) = self.light.on_points(&points, &viewed, Beyond::Nothing);
         let factor = factor.unwrap_or(one) * at.slope / (at.denominator * at.denominator);
         let mut light = [one * 0.0; 3];
         let sum = &mut light[..scene.channels];

@@ -4,7 +4,8 @@ use fearless_simd::Simd;
 
 use super::arcs::{Lanes, add, between};
 use super::circle::Trace;
-use super::events::{Function, INTERVALS, Stretch, ahead, facing, in_disc, is_beyond};
+use super::events::{INTERVALS, Stretch};
+use super::functions::{Function, ahead, facing, in_disc, is_beyond};
 use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::edges::terminator::Plane;

@@ -3,7 +3,8 @@
 use fearless_simd::Simd;
 
 use super::circle::Trace;
-use super::events::{Function, Stretch, value};
+use super::events::Stretch;
+use super::functions::{Function, value};
 use super::setting::{Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::face::Face;
 
