@@ -5,15 +5,12 @@ use marbles_core::{
     Color, Emission, Image, Light, LightFalloff, Material, PointLight, Sphere, View, World,
 };
 
+use marbles_tests::reference::Reference;
+
 use crate::studio::{exact_picture, looking_forward, picture, pixels};
 
 fn led(position: DVec3, reference: f64, direction: DVec3, mu: f64) -> Light {
-    let lamp = PointLight::new(
-        position,
-        Color::ONE,
-        LightFalloff::InverseSquare,
-        reference,
-    );
+    let lamp = PointLight::new(position, Color::ONE, LightFalloff::InverseSquare, reference);
     let emission = Emission::new(direction, mu).unwrap();
     lamp.unwrap().with_emission(emission).into()
 }
@@ -79,9 +76,7 @@ fn a_plane_under_an_led_has_the_known_irradiance() {
         for (col, row) in pixels(&image).filter(|&(_, row)| row >= 24) {
             let (x, y) = (f64::from(col) - 19.5, 19.5 - f64::from(row));
             let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)];
-            let is_ahead = corners
-                .iter()
-                .all(|(u, v)| light_at(x + u, y + v).0 > 0.3);
+            let is_ahead = corners.iter().all(|(u, v)| light_at(x + u, y + v).0 > 0.3);
             if !is_ahead {
                 continue;
             }
@@ -92,7 +87,10 @@ fn a_plane_under_an_led_has_the_known_irradiance() {
                 }
             }
             let found = image.rgba(col, row)[0];
-            assert!((found - mean).abs() < 2e-7, "{mu} {col} {row}: {found} {mean}");
+            assert!(
+                (found - mean).abs() < 2e-7,
+                "{mu} {col} {row}: {found} {mean}"
+            );
             count += 1;
         }
         assert!(count > 200, "{mu}: {count}");
@@ -142,13 +140,57 @@ fn pictures_are_those_of_plain_sampling() {
         for mu in [0.0, 0.05, 0.3, 1.0, 2.5, 12.0, 80.0] {
             let lights = [
                 // Its plane cuts the ball, and the floor.
-                led(DVec3::new(0.5, 0.3, 3.2), 1.2, DVec3::new(-1.0, -0.4, 0.35), mu),
+                led(
+                    DVec3::new(0.5, 0.3, 3.2),
+                    1.2,
+                    DVec3::new(-1.0, -0.4, 0.35),
+                    mu,
+                ),
                 // It touches the ball, nearly.
-                led(DVec3::new(-1.0, 1.2, 4.0), 1.0, DVec3::new(0.3, -1.0, 0.9), mu),
+                led(
+                    DVec3::new(-1.0, 1.2, 4.0),
+                    1.0,
+                    DVec3::new(0.3, -1.0, 0.9),
+                    mu,
+                ),
             ];
             let off = apart(&world(&spheres, exponent, &lights), &view);
             // Jumps along lines of samples, of what is at most 1.5.
             assert!(off < 3e-3, "{exponent} {mu}: {off}");
+        }
+    }
+}
+
+/// The cutoffs of lamps on a panel coincide, as do those of two lamps back to back.
+#[test]
+fn cutoffs_of_lamps_on_a_panel_are_met() {
+    let spheres = [(DVec3::new(0.1, -0.1, 5.0), 1.0)];
+    let view = looking_forward(24, 24, 48.0);
+    let facing = DVec3::new(0.2, -1.0, 0.1);
+    let aside = DVec3::new(1.0, 0.2, 0.0);
+    let place = DVec3::new(-0.9, 1.0, 3.0);
+    let lamp = |step: f64, sign: f64, mu: f64| led(place + aside * step, 2.0, facing * sign, mu);
+    for lights in [
+        vec![
+            lamp(0.0, 1.0, 1.0),
+            lamp(0.7, 1.0, 1.0),
+            lamp(1.6, 1.0, 0.3),
+        ],
+        vec![lamp(0.0, 1.0, 1.0), lamp(0.7, -1.0, 0.0)],
+        vec![
+            lamp(0.3, -1.0, 2.0),
+            lamp(0.7, 1.0, 0.4),
+            lamp(1.6, -1.0, 0.0),
+        ],
+    ] {
+        let world = world(&spheres, 1.0, &lights);
+        let image = exact_picture(&world, &view, 1e-5, false);
+        assert_eq!(image.summary().over_tolerance, 0);
+        let reference = Reference::new(&world, &view);
+        for (col, row) in pixels(&image).filter(|(col, row)| (col + row) % 5 == 0) {
+            let truth = reference.pixel_to(col, row, 1e-7);
+            let off = (image.rgba(col, row)[0] - truth.value.x).abs();
+            assert!(off <= 1e-5 + truth.error, "{col} {row}: {off:e}");
         }
     }
 }
@@ -188,10 +230,17 @@ fn a_ring_of_leds_lights_a_ball_from_the_lens() {
     let square = 110.0_f64.powi(2) + 30.0 * 30.0;
     let expected = 2.0 * (150.0 * 150.0 / square) * (110.0 * 110.0 / square);
     let four = [(15, 15), (15, 16), (16, 15), (16, 16)];
-    let mean = four.map(|(col, row)| image.rgba(col, row)[0]).iter().sum::<f64>() / 4.0;
-    assert!((mean - expected).abs() < 0.01 * expected, "{mean} {expected}");
+    let mean = four
+        .map(|(col, row)| image.rgba(col, row)[0])
+        .iter()
+        .sum::<f64>()
+        / 4.0;
+    assert!(
+        (mean - expected).abs() < 0.01 * expected,
+        "{mean} {expected}"
+    );
     // The plane of the lamps passes the viewpoint: everything lies ahead of it.
-    let reference = marbles_tests::reference::Reference::new(scene.world(), &view);
+    let reference = Reference::new(scene.world(), &view);
     for (col, row) in [(15, 15), (9, 20), (26, 12), (5, 16)] {
         let truth = reference.pixel_to(col, row, 1e-8);
         let off = (image.rgba(col, row)[0] - truth.value.x).abs();

@@ -92,7 +92,16 @@ pub(super) fn leds(numbers: &mut Numbers) -> Draft {
         draft.sphere(center, radius);
         balls.push((DVec3::from_array(center), radius));
     }
+    let mut last: Option<(DVec3, DVec3)> = None;
     for _ in 0..numbers.below(3) + 1 {
+        if let (Some((position, facing)), 0) = (last, numbers.below(4)) {
+            // On one panel with the last one, or on its back.
+            let aside = across(numbers, facing.normalize()) * numbers.between(2.0, 20.0);
+            let facing = facing * numbers.either(&[1.0, 1.0, -1.0]);
+            draft.point_light((position + aside).to_array(), 0.5, Some(20.0));
+            draft.face(facing.to_array(), mu(numbers));
+            continue;
+        }
         let (center, radius) = balls[numbers.below(balls.len())];
         let [u, v, w] = numbers.direction();
         // More often than not on the side that is seen.
@@ -118,6 +127,7 @@ pub(super) fn leds(numbers: &mut Numbers) -> Draft {
         draft.point_light(position.to_array(), numbers.between(0.3, 0.8), reference);
         let facing = direction(numbers, center - position, radius);
         draft.face(facing.to_array(), mu(numbers));
+        last = Some((position, facing));
     }
     draft
 }

@@ -199,7 +199,8 @@ fn a_sidecar_has_the_name_of_its_picture() {
 /// The camera looks along +x from (1, 2, 3): its right is the world's back.
 #[test]
 fn a_lamp_has_its_direction_in_both_axes() {
-    let lights = "lights: [Point(position: (2, 2, 3), direction: (3, 0, -4), mu: 1.5, reference: 1)]";
+    let lights =
+        "lights: [Point(position: (2, 2, 3), direction: (3, 0, -4), mu: 1.5, reference: 1)]";
     let text = SCENE.replace(
         "lights: [Directional(toward: (0, 0, -3), intensity: (1, 0.1, 0))]",
         lights,

@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 
 use super::arcs::{Lanes, add, between};
 use super::circle::Trace;
+use super::cutoff_beside::CutoffBeside;
 use super::events::{INTERVALS, Stretch};
 use super::functions::{Function, ahead, facing, in_disc, is_beyond};
 use super::primitive::ray;
@@ -159,16 +160,20 @@ impl Boundary {
                         dark = facing.simd_le(0.0).to_bitmask();
                     }
                     let mut closed = between(dark);
-                    let cutoff = cutoff_beside(setting, curve, sphere, light);
-                    let ahead = match cutoff {
-                        Some(plane) => Some(ahead(&plane, setting, (sphere, light), &points)),
-                        None => None,
+                    let cutoff = CutoffBeside::of(setting, curve, sphere, light);
+                    let ahead = match &cutoff {
+                        CutoffBeside::Plane(plane) => {
+                            Some(ahead(plane, setting, (sphere, light), &points))
+                        }
+                        CutoffBeside::Ahead | CutoffBeside::Beyond => None,
                     };
-                    if let Some(ahead) = ahead {
-                        let beyond = ahead.simd_le(0.0).to_bitmask();
-                        closed |= between(beyond);
-                        dark |= beyond;
-                    }
+                    let beyond = match ahead {
+                        Some(ahead) => ahead.simd_le(0.0).to_bitmask(),
+                        None if matches!(cutoff, CutoffBeside::Beyond) => 0xff,
+                        None => 0,
+                    };
+                    closed |= between(beyond);
+                    dark |= beyond;
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
                             continue;
@@ -245,9 +250,13 @@ impl Boundary {
                         let facing = facing(&plane, &active.ball, &points.normal);
                         lit = facing.simd_gt(0.0).to_bitmask();
                     }
-                    if let Some(plane) = cutoff_beside(setting, curve, sphere, light) {
-                        let ahead = ahead(&plane, setting, (sphere, light), &points);
-                        lit &= ahead.simd_gt(0.0).to_bitmask();
+                    match CutoffBeside::of(setting, curve, sphere, light) {
+                        CutoffBeside::Plane(plane) => {
+                            let ahead = ahead(&plane, setting, (sphere, light), &points);
+                            lit &= ahead.simd_gt(0.0).to_bitmask();
+                        }
+                        CutoffBeside::Ahead => {}
+                        CutoffBeside::Beyond => continue,
                     }
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
@@ -288,18 +297,6 @@ fn terminator_beside(
         _ => false,
     };
     (curve.own[0] != sphere || !is_here).then_some(plane)
-}
-
-/// The plane of the cutoff of a light on an active sphere; none on the cutoff itself.
-fn cutoff_beside(
-    setting: &Setting<'_, '_>,
-    curve: &Curve,
-    sphere: usize,
-    light: usize,
-) -> Option<Plane> {
-    let plane = setting.scene.lights[light].cutoff(&setting.contents.active[sphere].ball)?;
-    let is_here = curve.edge == Edge::Cutoff(light) && curve.own[0] == sphere;
-    (!is_here).then_some(plane)
 }
 
 /// Whether no light reaches an active sphere, or there is none.

@@ -10,6 +10,7 @@ mod chord;
 mod circle;
 mod clip;
 mod curve;
+mod cutoff_beside;
 mod cutoffs;
 mod dips;
 mod events;
