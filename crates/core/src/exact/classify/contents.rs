@@ -4,7 +4,6 @@ use super::active::{Active, Terminators};
 use super::behind::Cover;
 use super::coincidence::{contours_apart, has_same_contour, is_contour, nesting};
 use super::cut_side::CutSide;
-use super::cutoff::is_beyond;
 use super::face::Face;
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::OccluderCache;
@@ -241,7 +240,7 @@ impl Contents {
                     _ => None,
                 };
                 let is_cut_off =
-                    cutoff.is_some_and(|(plane, lamp)| is_beyond(cell, &active, &plane, lamp));
+                    cutoff.is_some_and(|(plane, lamp)| active.is_beyond(cell, &plane, lamp));
                 let reach = if may_reach && !is_cut_off {
                     if self.is_crowded {
                         self.reach.push(Reach::Past(0..0));

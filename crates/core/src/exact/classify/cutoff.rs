@@ -11,19 +11,15 @@ use crate::edges::terminator::Plane;
 use crate::model::camera::Projection;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
-/// Returns whether all that a cell sees of a sphere lies beyond the plane of the cutoff of a lamp at this position.
-pub(super) fn is_beyond(cell: &Cell, active: &Active, plane: &Plane, position: DVec3) -> bool {
-    let Active {
-        ball,
-        discriminant,
-        along,
-        ..
-    } = active;
-    let patch = Patch::new(cell, ball, discriminant, along);
-    patch.widths().into_iter().all(|(end, around)| {
-        let slack = GEOMETRY_SLACK * (end.length() + position.length());
-        (end - position).dot(plane.axis) + around < -slack
-    })
+impl Active {
+    /// Returns whether all that a cell sees of the sphere lies beyond the plane of the cutoff of a lamp at this position.
+    pub(super) fn is_beyond(&self, cell: &Cell, plane: &Plane, position: DVec3) -> bool {
+        let patch = Patch::new(cell, &self.ball, &self.discriminant, &self.along);
+        patch.widths().into_iter().all(|(end, around)| {
+            let slack = GEOMETRY_SLACK * (end.length() + position.length());
+            (end - position).dot(plane.axis) + around < -slack
+        })
+    }
 }
 
 impl Contents {

@@ -281,3 +281,6 @@ impl<S: Simd> Integrand<'_, '_, S> {
         light
     }
 }
+
+#[cfg(test)]
+mod tests;

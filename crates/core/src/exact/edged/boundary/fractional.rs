@@ -324,4 +324,4 @@ fn chosen<S: Simd>(
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
