@@ -21,6 +21,7 @@ mod invariance;
 mod known;
 mod laws;
 mod layers;
+mod leds;
 mod mutations;
 mod outlines;
 mod parallel;

@@ -8,7 +8,7 @@ use super::light::Signature;
 use super::line::{Line, Piece};
 use super::patch::{Candidate, Patch};
 use super::quadrature::{Integral, changes, integrate};
-use super::seeds::{Seeds, touching_lines};
+use super::seeds::{Seeds, touching_circle, touching_lines};
 
 /// The number of lines at first, in addition to those that seeds suggest.
 const FIRST_LINES: usize = 24;
@@ -128,6 +128,14 @@ impl<'patch> Across<'patch> {
         for ball in candidates.flat_map(Candidate::contours) {
             let lines = touching_lines(ball, self.patch.origin, along, across);
             places.extend(lines.filter(within));
+        }
+        for candidate in &self.patch.candidates {
+            for lamp in &self.patch.stage.lamps {
+                if let Some(circle) = lamp.cutoff(&candidate.ball) {
+                    let lines = touching_circle(self.patch, circle, along, across);
+                    places.extend(lines.into_iter().filter(within));
+                }
+            }
         }
         places.extend(seeds.points.iter().map(|point| self.way.parts(*point).1));
         places.sort_by(f64::total_cmp);

@@ -14,6 +14,8 @@ pub(crate) enum Lamp {
         position: DVec3,
         /// The distance at which it has its intensity, if it has a falloff.
         reference: Option<f64>,
+        /// The direction that it faces, and the power of the cosine of the angle to it.
+        facing: Option<(DVec3, f64)>,
     },
 }
 
@@ -27,6 +29,9 @@ impl Lamp {
                     LightFalloff::InverseSquare => Some(light.reference()),
                     LightFalloff::None => None,
                 },
+                facing: light
+                    .emission()
+                    .map(|emission| (emission.direction(), emission.mu())),
             },
         }
     }
@@ -38,13 +43,47 @@ impl Lamp {
             Self::Near {
                 position,
                 reference,
+                facing,
             } => {
                 let way = position - point;
                 let distance = way.length();
-                let factor = reference.map_or(1.0, |reference| (reference / distance).powi(2));
-                (way / distance, factor)
+                let toward = way / distance;
+                let mut factor = reference.map_or(1.0, |reference| (reference / distance).powi(2));
+                if let Some((direction, mu)) = facing {
+                    let cosine = -toward.dot(direction);
+                    factor *= if cosine > 0.0 { cosine.powf(mu) } else { 0.0 };
+                }
+                (toward, factor)
             }
         }
+    }
+
+    /// The distance of a point ahead of the plane beyond which the light sends nothing; `None` if it sends as much in all
+    /// directions.
+    pub(crate) fn ahead(&self, point: DVec3) -> Option<f64> {
+        let Self::Near {
+            position,
+            facing: Some((direction, _)),
+            ..
+        } = *self
+        else {
+            return None;
+        };
+        Some((point - position).dot(direction))
+    }
+
+    /// The circle in which this plane cuts a ball: its middle, the direction that the light faces, and its radius.
+    pub(crate) fn cutoff(&self, ball: &Ball) -> Option<(DVec3, DVec3, f64)> {
+        let ahead = self.ahead(ball.center)?;
+        let Self::Near {
+            facing: Some((direction, _)),
+            ..
+        } = *self
+        else {
+            return None;
+        };
+        let radius_sq = (ball.radius - ahead) * (ball.radius + ahead);
+        (radius_sq > 0.0).then(|| (ball.center - direction * ahead, direction, radius_sq.sqrt()))
     }
 
     /// Whether it is inside a ball, whose outer side is then dark.

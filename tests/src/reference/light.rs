@@ -105,6 +105,7 @@ impl Patch<'_> {
             let (toward, factor) = lamp.seen_from(spot.point);
             let facing = spot.normal.dot(toward);
             if facing <= 0.0
+                || lamp.ahead(spot.point).is_some_and(|ahead| ahead <= 0.0)
                 || lamp.is_inside(&candidate.ball)
                 || self.is_shadowed(candidate, number, spot.point)
             {

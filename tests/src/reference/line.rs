@@ -293,6 +293,9 @@ impl Line<'_> {
         };
         for (lamp, casters) in self.patch.stage.lamps.iter().zip(&candidate.casters) {
             search(&|spot, _| spot.normal.dot(lamp.seen_from(spot.point).0));
+            if lamp.ahead(candidate.ball.center).is_some() {
+                search(&|spot, _| lamp.ahead(spot.point).unwrap_or(1.0));
+            }
             if material.highlight.is_some() {
                 search(&|spot, u| {
                     let toward = lamp.seen_from(spot.point).0;

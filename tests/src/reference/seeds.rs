@@ -19,7 +19,7 @@ const MANY: usize = 60;
 pub(crate) struct Seeds {
     /// Points around which the view may change.
     pub(crate) points: Vec<DVec2>,
-    /// The brightest points of highlights.
+    /// The brightest points of highlights and of beams.
     pub(crate) peaks: Vec<DVec2>,
 }
 
@@ -40,12 +40,14 @@ impl Seeds {
             }
             if !candidate.ball.has_eye_inside() {
                 directions.extend(shadow_points(patch, candidate));
+                directions.extend(cutoff_points(patch, candidate));
             }
         }
         let inside = |point: &DVec2| point.cmpgt(patch.low).all() && point.cmplt(patch.high).all();
         let project = |direction: DVec3| patch.project(direction).filter(inside);
         seeds.points = directions.into_iter().filter_map(project).collect();
-        seeds.peaks = peaks(patch).filter_map(project).collect();
+        let peaks = peaks(patch).chain(beams(patch));
+        seeds.peaks = peaks.filter_map(project).collect();
         seeds
     }
 }
@@ -76,6 +78,76 @@ pub(crate) fn touching_lines(
     let root = (half_b * half_b - a * c).max(0.0).sqrt();
     let sum = -(half_b + root.copysign(half_b));
     vec![sum / a, c / sum].into_iter()
+}
+
+/// The lines `t` = constant that touch a circle: its middle, its axis and its radius. A plane with the normal N through the
+/// eye touches it where |N · m| is the radius times the part of N across the axis.
+pub(crate) fn touching_circle(
+    patch: &Patch<'_>,
+    (middle, axis, radius): (DVec3, DVec3, f64),
+    along: DVec3,
+    across: DVec3,
+) -> Vec<f64> {
+    if patch.stage.forward.is_some() {
+        let across_sq = across.length_squared();
+        let place = (middle - patch.origin).dot(across) / across_sq;
+        let half = radius * (across - axis * across.dot(axis)).length() / across_sq;
+        return vec![place - half, place + half];
+    }
+    let (n, m) = (patch.origin.cross(along), across.cross(along));
+    let form = |a: DVec3, b: DVec3| {
+        middle.dot(a) * middle.dot(b) - radius * radius * (a.dot(b) - a.dot(axis) * b.dot(axis))
+    };
+    let (a, half_b, c) = (form(m, m), form(n, m), form(n, n));
+    let root = (half_b * half_b - a * c).max(0.0).sqrt();
+    let sum = -(half_b + root.copysign(half_b));
+    vec![sum / a, c / sum]
+}
+
+/// The points where the cutoffs of lights on a candidate cross its contour, its terminators and each other.
+fn cutoff_points(patch: &Patch<'_>, candidate: &Candidate) -> Vec<DVec3> {
+    let ball = &candidate.ball;
+    let lamps = &patch.stage.lamps;
+    let mut planes = vec![match ball.forward {
+        None => (ball.center, ball.power),
+        Some(forward) => (forward, forward.dot(ball.center)),
+    }];
+    for lamp in lamps {
+        let (axis, offset) = match *lamp {
+            Lamp::Far(toward) => (toward, 0.0),
+            Lamp::Near { position, .. } => (position - ball.center, ball.radius * ball.radius),
+        };
+        planes.push((axis, ball.center.dot(axis) + offset));
+    }
+    let mut points = Vec::new();
+    for (index, lamp) in lamps.iter().enumerate() {
+        let Some((middle, axis, _)) = lamp.cutoff(ball) else {
+            continue;
+        };
+        let plane = (axis, middle.dot(axis));
+        for other in &planes {
+            points.extend(on_both(ball, plane, *other));
+        }
+        let others = lamps[..index].iter().filter_map(|lamp| lamp.cutoff(ball));
+        for (middle, axis, _) in others {
+            points.extend(on_both(ball, plane, (axis, middle.dot(axis))));
+        }
+    }
+    points
+}
+
+/// The points of a ball that are on two planes p · a = m.
+fn on_both(ball: &Ball, (a, m): (DVec3, f64), (b, n): (DVec3, f64)) -> Vec<DVec3> {
+    let line = a.cross(b);
+    let size_sq = line.length_squared();
+    let (m, n) = (m - ball.center.dot(a), n - ball.center.dot(b));
+    let foot = (b.cross(line) * m + line.cross(a) * n) / size_sq;
+    let rest = ball.radius * ball.radius - foot.length_squared();
+    if rest.is_nan() || rest < 0.0 {
+        return Vec::new();
+    }
+    let step = line * (rest / size_sq).sqrt();
+    vec![ball.center + foot + step, ball.center + foot - step]
 }
 
 /// The two directions in which the contours of two balls cross: the unit vectors d with d · c = √K for both.
@@ -221,6 +293,25 @@ fn peaks(patch: &Patch<'_>) -> impl Iterator<Item = DVec3> {
                 point = ball.center + patch.half_way(toward, point) * ball.radius;
             }
             point
+        })
+    })
+}
+
+/// The points that lamps face.
+fn beams(patch: &Patch<'_>) -> impl Iterator<Item = DVec3> {
+    patch.candidates.iter().flat_map(move |candidate| {
+        patch.stage.lamps.iter().filter_map(move |lamp| {
+            let Lamp::Near {
+                position,
+                facing: Some((direction, _)),
+                ..
+            } = *lamp
+            else {
+                return None;
+            };
+            let Ball { center, radius, .. } = candidate.ball;
+            let seen = Ball::new(center, radius, position, None);
+            seen.hit(direction).map(|t| position + direction * t)
         })
     })
 }

@@ -273,12 +273,17 @@ fn placed(light: &Light) -> String {
         Light::Point(light) => {
             let position = vector(light.position());
             let reference = short(light.reference());
-            match light.falloff() {
+            let mut text = match light.falloff() {
                 LightFalloff::InverseSquare => {
                     format!("at {position}, intensity {intensity} at distance {reference}")
                 }
                 LightFalloff::None => format!("at {position}, intensity {intensity} everywhere"),
+            };
+            if let Some(emission) = light.emission() {
+                let direction = vector(emission.direction());
+                text.push_str(&format!(", faces {direction}, mu {}", short(emission.mu())));
             }
+            text
         }
     }
 }

@@ -167,6 +167,11 @@ impl Feed {
                 self.vector(light.intensity());
                 self.integer(light.falloff() == LightFalloff::None);
                 self.number(light.reference());
+                if let Some(emission) = light.emission() {
+                    self.0.update(b"emission");
+                    self.vector(emission.direction());
+                    self.number(emission.mu());
+                }
             }
         }
     }

@@ -67,7 +67,7 @@ fn beside(lights: &str) -> String {
 fn a_data_set_of_near_lights_tells_them_in_the_axes_of_its_readers() {
     let folder = folder();
     let lights = [
-        "Point(position: (-4, 1, 2), intensity: 0.5, reference: 2)",
+        "Point(position: (-4, 1, 2), intensity: 0.5, reference: 2, direction: (3, 0, -4), mu: 0.25)",
         "Point(position: (-6, -1, 0), intensity: (0.5, 0.25, 0), reference: 4)",
     ];
     fs::write(folder.path("near.ron"), beside(&lights.join(", "))).unwrap();
@@ -122,6 +122,9 @@ fn a_data_set_of_near_lights_tells_them_in_the_axes_of_its_readers() {
     };
     close(&first[..3], &[-2.0, -1.0, 2.0]);
     close(&second[..3], &[0.0, 1.0, 0.0]);
+    // The direction that each faces.
+    close(&first[3..6], &[0.8, 0.0, 0.6]);
+    close(&second[3..6], &[0.0, 0.0, 1.0]);
     close(
         &numbers(&read("light_positions.txt")),
         &[-2.0, 1.0, -2.0, 0.0, -1.0, 0.0],
@@ -137,7 +140,7 @@ fn a_data_set_of_near_lights_tells_them_in_the_axes_of_its_readers() {
         gain * intensity * (reference / mean_distance) * (reference / mean_distance)
     };
     let white = brightness(0.5, 2.0);
-    close(&first[6..], &[white, white, white, 0.0, 0.0]);
+    close(&first[6..], &[white, white, white, 0.25, 0.0]);
     close(
         &second[6..],
         &[brightness(0.5, 4.0), brightness(0.25, 4.0), 0.0, 0.0, 0.0],

@@ -1,10 +1,11 @@
-//! Curves on the retina across which light changes abruptly: contours, seams, terminators and edges of shadows,
-//! as curves in the coordinates of a [`Cell`].
+//! Curves on the retina across which light changes abruptly: contours, seams, terminators, cutoffs of lamps and edges
+//! of shadows, as curves in the coordinates of a [`Cell`].
 //!
-//! Contours, seams and terminators are conics there, and cross a line in two places at most. An
+//! Contours, seams, terminators and cutoffs are conics there, and cross a line in two places at most. An
 //! edge of a shadow on a sphere crosses it in four at most.
 
 pub(crate) mod cell;
+pub(crate) mod cutoff;
 pub(crate) mod seam;
 pub(crate) mod shadow;
 pub(crate) mod silhouette;

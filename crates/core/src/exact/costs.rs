@@ -7,6 +7,7 @@ use super::interior::samples::Rule;
 use super::points::Points;
 use super::scene::{InCamera, Light};
 use super::surface::Finish;
+use crate::light::lobe::Beyond;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
@@ -42,7 +43,9 @@ impl Finish {
         }
         let Self { reflectance, .. } = self;
         let viewed = self.viewed(points, &points.normal);
-        let (cosine, half_cosine, factor) = light.on_points(points, &viewed);
+        // Beside these points a lamp may face more of the surface.
+        let light = light.in_all_directions();
+        let (cosine, half_cosine, factor) = light.on_points(points, &viewed, Beyond::Nothing);
         let factor = factor.unwrap_or(f64x8::splat(simd, 1.0));
         let falloff = &reflectance.diffuse;
         let [brightest, _] = reflectance.brightest(light.intensity);

@@ -32,6 +32,7 @@ pub(crate) mod integrator;
 mod interior;
 #[cfg(test)]
 mod only_pixel;
+mod parallel_begin;
 mod part;
 mod points;
 mod scene;

@@ -6,10 +6,13 @@ use glam::{DMat3, DVec3};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::classify::patch::Patch;
+use super::parallel_begin::moved_ahead;
 use crate::edges::cell::Ball;
 use crate::edges::shadow::{Caster, Cone};
-use crate::light::reflection::NearLight;
-use crate::model::camera::{Camera, Projection};
+use crate::edges::terminator::Plane;
+use crate::light::lobe::Lobe;
+use crate::light::near_light::NearLight;
+use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::light::Light as WorldLight;
 use crate::model::outline::OutlineView;
@@ -44,6 +47,8 @@ pub(crate) struct InCamera<'scene> {
     pub(crate) is_enclosed: bool,
     /// Whether some lights of the group are point lights, which not all rungs know.
     pub(crate) has_near_lights: bool,
+    /// Whether some of them send light in few directions only.
+    pub(crate) has_narrow_lamps: bool,
     /// The lights of the group.
     pub(crate) lights: Vec<Light>,
     /// The light of the surroundings, which counts with the first group.
@@ -95,6 +100,23 @@ impl Light {
                 .near
                 .map(|near| Cone::new(near.position, center, radius)),
         }
+    }
+
+    /// The same light that sends as much in all directions as in the one that it faces.
+    pub(crate) fn in_all_directions(&self) -> Self {
+        Self {
+            near: self.near.map(NearLight::in_all_directions),
+            ..*self
+        }
+    }
+
+    /// The plane of the cutoff on a ball, with its axis on the side that the light faces; none of a light that sends as
+    /// much in all directions.
+    pub(crate) fn cutoff(&self, ball: &Ball) -> Option<Plane> {
+        let near = self.near.as_ref()?;
+        let axis = near.lobe.as_ref()?.direction;
+        let offset = (near.position - ball.center).dot(axis);
+        Some(Plane { axis, offset })
     }
 
     /// A bound of the factor by which intensity is larger anywhere on a ball's patch, which may seem to reach around the
@@ -167,6 +189,8 @@ impl<'scene> InCamera<'scene> {
             }
             WorldLight::Point(light) => {
                 let position = camera_from_world * (light.position() - viewpoint);
+                let lobe = light.emission();
+                let lobe = lobe.map(|emission| Lobe::new(emission, &camera_from_world));
                 let around_light = visibility.point_light(index);
                 let around_light = around_light.map(|occluders| occluders.enclosing());
                 Light {
@@ -175,7 +199,7 @@ impl<'scene> InCamera<'scene> {
                     toward: DVec3::Z,
                     right: DVec3::X,
                     up: DVec3::Y,
-                    near: Some(NearLight::new(light, position)),
+                    near: Some(NearLight::new(light, position, lobe)),
                     is_shut_off: around_light.is_some_and(|around| around != around_eye),
                 }
             }
@@ -190,6 +214,10 @@ impl<'scene> InCamera<'scene> {
             projection,
             is_enclosed,
             has_near_lights: lights.iter().any(|light| light.near.is_some()),
+            has_narrow_lamps: lights.iter().any(|light| {
+                let lobe = light.near.and_then(|near| near.lobe);
+                lobe.is_some_and(|lobe| lobe.is_narrow())
+            }),
             camera_from_world,
             balls,
             lights,
@@ -232,6 +260,7 @@ impl<'scene> InCamera<'scene> {
         Self {
             channels: axes.len(),
             has_near_lights: false,
+            has_narrow_lamps: false,
             lights: lights.collect(),
             ambient: Color::ZERO,
             is_of_normals: true,
@@ -335,43 +364,6 @@ impl<'scene> InCamera<'scene> {
 
     pub(crate) fn in_world(&self, point: DVec3) -> DVec3 {
         self.viewpoint + self.world_from_camera * point
-    }
-}
-
-/// A viewpoint of parallel rays, moved along them to just before the nearest sphere that they may meet: how far away they
-/// begin changes nothing about them, but what rounding moves grows with it. Where their plane cuts a sphere it stays.
-fn moved_ahead(world: &World, camera: &Camera) -> DVec3 {
-    let (viewpoint, forward) = (camera.position, camera.forward());
-    let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
-    let begin = |sphere: &Sphere| {
-        let ahead = (sphere.center() - viewpoint).dot(forward);
-        let slack = WIDER * sphere.radius() + (ahead.abs() + viewpoint.length()) * (WIDER - 1.0);
-        if ahead >= slack {
-            // In the world, so that the place does not depend on the viewpoint's.
-            sphere.center().dot(forward) - WIDER * sphere.radius()
-        } else if ahead <= -slack {
-            f64::INFINITY
-        } else {
-            f64::NAN
-        }
-    };
-    let nearest = spheres.map(begin).reduce(
-        || f64::INFINITY,
-        |one, other| {
-            if one <= other {
-                one
-            } else if other < one {
-                other
-            } else {
-                f64::NAN
-            }
-        },
-    );
-    let moved = camera.on_axis_at(nearest);
-    if nearest.is_finite() && moved.is_finite() {
-        moved
-    } else {
-        viewpoint
     }
 }
 

@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 
 use super::points::Points;
 use super::scene::{InCamera, Light, MOST_LIGHTS};
+use crate::light::lobe::Beyond;
 use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::color::Color;
@@ -53,6 +54,7 @@ impl Light {
         &self,
         points: &Points<S>,
         viewed: &ViewedPoints<'_, S>,
+        beyond: Beyond,
     ) -> (f64x8<S>, f64x8<S>, Option<f64x8<S>>) {
         match &self.near {
             None => {
@@ -60,7 +62,7 @@ impl Light {
                 (cosine, viewed.half_cosine(self.toward, cosine), None)
             }
             Some(near) => {
-                let (toward, factor) = near.seen_from(&points.place());
+                let (toward, factor) = near.seen_from(&points.place(), beyond);
                 let cosine = viewed.cosine_of_each(&toward);
                 (
                     cosine,
@@ -154,7 +156,8 @@ impl Finish {
             if lights >> index & 1 == 1 {
                 let sum = &mut sum[..scene.channels];
                 let intensity = light.intensity;
-                let (cosine, half_cosine, factor) = light.on_points(points, &viewed);
+                let (cosine, half_cosine, factor) =
+                    light.on_points(points, &viewed, Beyond::Continued);
                 if let Some(factor) = factor {
                     let mut own = [f64x8::splat(simd, 0.0); 3];
                     let own = &mut own[..scene.channels];
@@ -202,7 +205,7 @@ impl Finish {
                 continue;
             }
             let intensity = light.intensity;
-            let (cosine, half_cosine, factor) = light.on_points(points, &viewed);
+            let (cosine, half_cosine, factor) = light.on_points(points, &viewed, Beyond::Continued);
             let lit = Some(cosine.simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]));
             let sum = &mut sum[..scene.channels];
             if let Some(factor) = factor {

@@ -14,7 +14,6 @@ use fearless_simd::Simd;
 use glam::DVec3;
 
 use crate::model::color::Color;
-use crate::model::light::PointLight;
 use crate::model::material::Material;
 use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::power::Power;
@@ -34,47 +33,6 @@ pub(crate) struct Reflectance {
     pub(crate) diffuse: Falloff,
     /// Its strength and falloff.
     pub(crate) highlight: Option<(f64, Falloff)>,
-}
-
-/// A light at a point, in the frame of the points that it lights.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct NearLight {
-    pub(crate) position: DVec3,
-    /// The distance at which its intensity is what it is said to be, where it falls off with the distance.
-    reference: Option<f64>,
-}
-
-impl NearLight {
-    pub(crate) fn new(light: &PointLight, position: DVec3) -> Self {
-        Self {
-            position,
-            reference: light.falls_off_from(),
-        }
-    }
-
-    /// The unit vectors from points toward the light, and the factors of its intensity there.
-    #[inline(always)]
-    pub(crate) fn seen_from<S: Simd>(&self, points: &Vectors<S>) -> (Vectors<S>, f64x8<S>) {
-        let simd = points.x.simd();
-        let way = Vectors::splat(simd, self.position).minus(points);
-        let one = f64x8::splat(simd, 1.0);
-        let least = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let inverse = one / way.length_squared().max(least).sqrt();
-        let factor = match self.reference {
-            Some(reference) => (inverse * reference) * (inverse * reference),
-            None => one,
-        };
-        (way.times(inverse), factor)
-    }
-
-    /// A bound of the factor of its intensity at a distance and beyond.
-    pub(crate) fn most_from(&self, distance: f64) -> f64 {
-        self.reference.map_or(1.0, |reference| {
-            let ratio = reference / distance.max(0.0);
-            // An infinite one would make darkness no number.
-            (ratio * ratio).min(f64::MAX.sqrt())
-        })
-    }
 }
 
 /// Points as the eye sees them.
@@ -108,7 +66,7 @@ impl Falloff {
     /// The power of cosines, continued to negative ones as the same polynomial where it is one of a low degree:
     /// what is analytic is integrated by few samples, and none of them may step over what is lit.
     #[inline(always)]
-    fn continued<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
+    pub(super) fn continued<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
         const HIGHEST: f64 = 5.0;
         if self.exponent.fract() != 0.0 || self.exponent > HIGHEST {
             return self.of(cosine);

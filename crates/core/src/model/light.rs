@@ -1,9 +1,10 @@
 //! Lights.
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::color::Color;
+use super::emission::{Emission, unit};
+use super::light_error::LightError;
 use super::sphere::Sphere;
 
 /// A light.
@@ -66,6 +67,7 @@ pub struct PointLight {
     intensity: Color,
     falloff: LightFalloff,
     reference: f64,
+    emission: Option<Emission>,
 }
 
 /// The way in which a point light falls off with the distance.
@@ -90,30 +92,6 @@ pub enum LightFalloff {
     InverseSquare,
     /// Not at all.
     None,
-}
-
-/// The reason for which a light was refused.
-///
-/// # Example
-/// ```
-/// use marbles_core::glam::DVec3;
-/// use marbles_core::{Light, LightError};
-///
-/// let refused = Light::directional(DVec3::ZERO, DVec3::ONE);
-/// assert_eq!(refused, Err(LightError::Toward(DVec3::ZERO)));
-/// ```
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum LightError {
-    /// The vector toward a directional light is zero, infinite or not a number.
-    #[error("expected a finite vector toward the light that is not zero, found {0}")]
-    Toward(DVec3),
-    /// The position of a point light is infinite or not a number.
-    #[error("expected a finite position, found {0}")]
-    Position(DVec3),
-    /// The reference distance of a point light is zero, negative, infinite or not a number.
-    #[error("expected a finite reference distance greater than 0, found {0}")]
-    Reference(f64),
 }
 
 impl Light {
@@ -176,10 +154,7 @@ impl DirectionalLight {
     /// # Errors
     /// Refuses a vector that is zero or not finite: it has no direction.
     pub fn new(toward: DVec3, intensity: Color) -> Result<Self, LightError> {
-        // The largest component becomes 1 first, so that no square over- or underflows.
-        let largest = toward.abs().max_element();
-        let unit = (toward / largest).try_normalize();
-        let toward = unit.ok_or(LightError::Toward(toward))?;
+        let toward = unit(toward).ok_or(LightError::Toward(toward))?;
         Ok(Self { toward, intensity })
     }
 
@@ -217,7 +192,22 @@ impl PointLight {
             intensity,
             falloff,
             reference,
+            emission: None,
         })
+    }
+
+    /// The same light with an emission: its intensity is then that in the direction that it faces.
+    #[must_use]
+    pub fn with_emission(self, emission: Emission) -> Self {
+        Self {
+            emission: Some(emission),
+            ..self
+        }
+    }
+
+    /// The light that it sends in each direction; `None` if it sends as much in all of them.
+    pub fn emission(&self) -> Option<&Emission> {
+        self.emission.as_ref()
     }
 
     /// Its place in the world.
@@ -265,6 +255,12 @@ impl PointLight {
         }
         // What rounding takes from the difference counts for the light.
         let slack = 1e-12 * (apart + sphere.radius());
+        if let Some(emission) = &self.emission {
+            let ahead = (sphere.center() - self.position).dot(emission.direction());
+            if ahead + sphere.radius() + slack <= 0.0 {
+                return Color::ZERO;
+            }
+        }
         self.intensity * self.most_from(apart - sphere.radius() - slack)
     }
 }

@@ -7,7 +7,9 @@ use super::groups::{Group, Groups};
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::Sight;
-use crate::light::reflection::{NearLight, Reflectance, ViewedPoints};
+use crate::light::lobe::{Beyond, Lobe};
+use crate::light::near_light::NearLight;
+use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::model::color::Color;
 use crate::model::light::{Light as WorldLight, PointLight};
 use crate::model::outline::OutlineView;
@@ -168,8 +170,9 @@ impl<'scene> Shading<'scene> {
             || {
                 let from_eye = sight.point.times(f64x8::splat(simd, self.length));
                 let from_eye_to_light = light.position() - self.viewpoint;
-                let near = NearLight::new(light, from_eye_to_light);
-                let (toward, factor) = near.seen_from(&from_eye);
+                let lobe = light.emission().map(Lobe::in_world);
+                let near = NearLight::new(light, from_eye_to_light, lobe);
+                let (toward, factor) = near.seen_from(&from_eye, Beyond::Nothing);
                 let cosine = points.cosine_of_each(&toward);
                 let mut lit = cosine.simd_gt(0.0).to_bitmask() & asked;
                 for group in groups.as_slice() {

@@ -7,8 +7,8 @@ use serde::Deserialize;
 
 use crate::text::{Placed, present};
 use crate::values::{
-    Axis, Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Point,
-    Radius, Rotation, Shutter, Swing, Turns, Zoom,
+    Axis, Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Mu,
+    Point, Radius, Rotation, Shutter, Swing, Turns, Zoom,
 };
 
 /// The camera; a `Free` one stands at the origin and looks along z by default.
@@ -147,6 +147,10 @@ pub(crate) struct Key {
     #[serde(default, deserialize_with = "present")]
     pub(crate) toward: Option<Placed<Point>>,
     #[serde(default, deserialize_with = "present")]
+    pub(crate) direction: Option<Placed<Point>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) mu: Option<Placed<Mu>>,
+    #[serde(default, deserialize_with = "present")]
     pub(crate) intensity: Option<Placed<Color>>,
     #[serde(default)]
     pub(crate) ease: Placed<Ease>,
@@ -262,7 +266,7 @@ impl Animation {
 
 impl Key {
     /// Every channel with the place of its value, where the key names it.
-    pub(crate) fn channels(&self) -> [(&'static str, Option<Range<usize>>); 11] {
+    pub(crate) fn channels(&self) -> [(&'static str, Option<Range<usize>>); 13] {
         fn place<T>(channel: &Option<Placed<T>>) -> Option<Range<usize>> {
             channel.as_ref().map(|value| value.place.clone())
         }
@@ -277,6 +281,8 @@ impl Key {
             ("elevation", place(&self.elevation)),
             ("zoom", place(&self.zoom)),
             ("toward", place(&self.toward)),
+            ("direction", place(&self.direction)),
+            ("mu", place(&self.mu)),
             ("intensity", place(&self.intensity)),
         ]
     }

@@ -21,8 +21,8 @@ pub(crate) use self::table::{ElementRadii, Keep, Palette, RadiusColumn, Test, Wa
 use crate::text::{Placed, present};
 use crate::values::{
     Amplitude, Color, Coordinate, Exponent, FieldOfView, Flag, FocalLength, GrainSize, ImageSide,
-    LightName, MaterialName, Point, Radius, Reference, RetinaDistance, RetinaWidth, Seed, Shift,
-    Shininess, Strength, UnitName, Zoom,
+    LightName, MaterialName, Mu, Point, Radius, Reference, RetinaDistance, RetinaWidth, Seed,
+    Shift, Shininess, Strength, UnitName, Zoom,
 };
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.
@@ -112,6 +112,10 @@ pub(crate) enum Light {
         falloff: Placed<Falloff>,
         #[serde(default, deserialize_with = "present")]
         reference: Option<Placed<Reference>>,
+        #[serde(default, deserialize_with = "present")]
+        direction: Option<Placed<Point>>,
+        #[serde(default, deserialize_with = "present")]
+        mu: Option<Placed<Mu>>,
     },
 }
 
@@ -144,7 +148,10 @@ impl Light {
     pub(crate) fn channels(&self) -> &'static [&'static str] {
         match self {
             Self::Directional { .. } => &["toward", "intensity"],
-            Self::Point { .. } => &["position", "intensity"],
+            Self::Point {
+                direction: None, ..
+            } => &["position", "intensity"],
+            Self::Point { .. } => &["position", "direction", "mu", "intensity"],
         }
     }
 }

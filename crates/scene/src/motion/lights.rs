@@ -1,14 +1,19 @@
 //! The lights of a scene over time: at rest, through keys, on a turntable, and attached to the camera.
 
 use glam::{DMat3, DVec3};
-use marbles_core::{Camera, DirectionalLight, Light as CoreLight, LightFalloff, PointLight};
+use marbles_core::{
+    Camera, DirectionalLight, Emission as CoreEmission, Light as CoreLight, LightFalloff,
+    PointLight,
+};
 
 use super::channels::{Keys, PointCurve};
 use super::checks;
+use super::curve::Curve;
 use super::error::{FrameError, FrameFault};
 use super::turntable::Turntable;
 use crate::file::{self, Animation, File, Key, Turned};
 use crate::text::{Placed, optional, refuse};
+use crate::values::{Mu, Point};
 
 /// The lights of a scene over time.
 #[derive(Clone, Debug)]
@@ -28,8 +33,18 @@ struct Light {
     /// The direction toward it, or its position, in the axes of the world or of the camera.
     place: PointCurve,
     intensity: PointCurve,
+    /// That of a point light that sends light in some directions more than in others.
+    emission: Option<Emission>,
     /// Whether it moves with the camera.
     is_attached: bool,
+}
+
+/// The directions in which a lamp sends light, over time.
+#[derive(Clone, Debug)]
+struct Emission {
+    /// The direction that it faces, in the axes of the world or of the camera.
+    direction: PointCurve,
+    mu: Curve,
 }
 
 /// The kind of a light.
@@ -143,37 +158,36 @@ impl Lights {
         let turntable = self.turntable.as_ref();
         let rotation = turntable.map(|turntable| turntable.rotation(frame));
         let at = |(index, light): (usize, &Light)| {
-            let fault = light.kind.fault(index);
             let placed = light.at(f64::from(frame), camera, rotation, target);
-            placed.ok_or(FrameError { frame, fault })
+            placed.map_err(|fault| FrameError {
+                frame,
+                fault: fault(index),
+            })
         };
         self.lights.iter().enumerate().map(at).collect()
     }
 }
 
 impl Light {
-    /// The light at a time, turned by a `rotation`; `None` where it has no place.
+    /// The light at a time, turned by a `rotation`.
     fn at(
         &self,
         time: f64,
         camera: &Camera,
         rotation: Option<DMat3>,
         target: DVec3,
-    ) -> Option<CoreLight> {
+    ) -> Result<CoreLight, fn(usize) -> FrameFault> {
         let place = self.place.at(time);
         let turned = |vector: DVec3| rotation.map_or(vector, |rotation| rotation * vector);
+        let direction = |vector: DVec3| match self.is_attached {
+            true => camera.world_from_camera * vector,
+            false => turned(vector),
+        };
         let intensity = self.intensity.at(time);
         match self.kind {
-            Kind::Directional => {
-                let toward = if self.is_attached {
-                    camera.world_from_camera * place
-                } else {
-                    turned(place)
-                };
-                DirectionalLight::new(toward, intensity)
-                    .map(CoreLight::from)
-                    .ok()
-            }
+            Kind::Directional => DirectionalLight::new(direction(place), intensity)
+                .map(CoreLight::from)
+                .map_err(|_| FrameFault::LightNowhere as _),
             Kind::Point { falloff, reference } => {
                 // Where it is not chosen, nothing depends on it.
                 let reference = reference.unwrap_or(1.0);
@@ -182,9 +196,15 @@ impl Light {
                     Some(_) => target + turned(place - target),
                     None => place,
                 };
-                PointLight::new(position, intensity, falloff, reference)
-                    .map(CoreLight::from)
-                    .ok()
+                let light = PointLight::new(position, intensity, falloff, reference)
+                    .map_err(|_| FrameFault::LightTooFar as fn(usize) -> FrameFault)?;
+                let Some(emission) = &self.emission else {
+                    return Ok(light.into());
+                };
+                let facing = direction(emission.direction.at(time));
+                CoreEmission::new(facing, emission.mu.at(time))
+                    .map(|emission| light.with_emission(emission).into())
+                    .map_err(|_| FrameFault::LightNowhere as _)
             }
         }
     }
@@ -194,14 +214,6 @@ impl Kind {
     fn lacks_reference(self) -> bool {
         let falls_off = LightFalloff::InverseSquare;
         matches!(self, Self::Point { falloff, reference: None } if falloff == falls_off)
-    }
-
-    /// The fault of a light of this kind that has no place.
-    fn fault(self, index: usize) -> FrameFault {
-        match self {
-            Self::Directional => FrameFault::LightNowhere(index),
-            Self::Point { .. } => FrameFault::LightTooFar(index),
-        }
     }
 }
 
@@ -230,10 +242,12 @@ fn light(light: &Placed<file::Light>, keys: &[&Key]) -> Option<Light> {
     };
     let keys = Keys(keys.iter().filter(own).copied().collect());
     let (kind, place) = kind(light, &keys)?;
+    let emission = emission(light, &keys)?;
     let intensity = intensity.get()?.0;
     Some(Light {
         kind,
         place,
+        emission,
         intensity: keys.vectors(intensity, |key| Some(key.intensity.as_ref()?.get()?.0)),
         is_attached: attached.is_some(),
         name,
@@ -244,11 +258,7 @@ fn light(light: &Placed<file::Light>, keys: &[&Key]) -> Option<Light> {
 fn kind(light: &file::Light, keys: &Keys<'_>) -> Option<(Kind, PointCurve)> {
     match light {
         file::Light::Directional { toward, .. } => {
-            let direction = toward.get()?.0;
-            if direction == DVec3::ZERO {
-                let message = "expected a direction `(x, y, z)`, found the zero vector";
-                return refuse(toward.place.clone(), message);
-            }
+            let direction = direction(toward)?;
             let place = keys.vectors(direction, |key| Some(key.toward.as_ref()?.get()?.0));
             Some((Kind::Directional, place))
         }
@@ -268,4 +278,44 @@ fn kind(light: &file::Light, keys: &Keys<'_>) -> Option<(Kind, PointCurve)> {
             Some((Kind::Point { falloff, reference }, place))
         }
     }
+}
+
+/// The directions in which a light of the file sends light; none of one that sends as much in all of them, and `None` where a
+/// fault was reported.
+fn emission(light: &file::Light, keys: &Keys<'_>) -> Option<Option<Emission>> {
+    let file::Light::Point {
+        direction: facing,
+        mu,
+        ..
+    } = light
+    else {
+        return Some(None);
+    };
+    let Some(facing) = facing else {
+        if let Some(mu) = mu {
+            let message =
+                "expected a `direction` beside `mu`: the one that the lamp faces; found none";
+            return refuse(mu.place.clone(), message);
+        }
+        return Some(None);
+    };
+    let mu = match mu {
+        Some(mu) => mu.get()?,
+        None => Mu::default(),
+    };
+    let direction = direction(facing)?;
+    Some(Some(Emission {
+        direction: keys.vectors(direction, |key| Some(key.direction.as_ref()?.get()?.0)),
+        mu: keys.numbers(mu.0, |key| &key.mu),
+    }))
+}
+
+/// A vector that has a direction; `None` where a fault was reported.
+fn direction(vector: &Placed<Point>) -> Option<DVec3> {
+    let direction = vector.get()?.0;
+    if direction == DVec3::ZERO {
+        let message = "expected a direction `(x, y, z)`, found the zero vector";
+        return refuse(vector.place.clone(), message);
+    }
+    Some(direction)
 }

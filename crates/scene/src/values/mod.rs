@@ -11,7 +11,7 @@ pub(crate) use color::{Color, from_srgb, linear};
 pub(crate) use point::{Axis, FrameRange, Point, Repeat, Shift};
 pub(crate) use quantity::{
     Amplitude, Coordinate, Degrees, Every, Exponent, FieldOfView, Fill, FocalLength, Frame,
-    FrameCount, FramesPerSecond, GrainSize, ImageSide, LineCount, MOST_FRAMES, OutlineUnits,
+    FrameCount, FramesPerSecond, GrainSize, ImageSide, LineCount, MOST_FRAMES, Mu, OutlineUnits,
     OutlineWidth, Percent, Radius, RadiusScale, Reference, RetinaDistance, RetinaWidth, Scale,
     Seed, Shininess, Shutter, Speed, Step, Strength, Swing, Turns, Zoom,
 };

@@ -47,6 +47,8 @@ quantities! {
     RetinaDistance(f64): "a distance greater than 0", |x| x > 0.0;
     /// The distance at which a point light has its intensity.
     Reference(f64): "a distance greater than 0", |x| x > 0.0;
+    /// The power of the cosine with which a lamp sends light beside the direction that it faces; Lambert's law by default.
+    Mu(f64): "a power of at least 0", |x| x >= 0.0, default 1.0;
     /// The focal length of a matrix.
     FocalLength(f64): "a focal length in pixels, greater than 0", |x| x > 0.0;
     /// The horizontal field of view.

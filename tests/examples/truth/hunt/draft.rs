@@ -114,6 +114,16 @@ impl Draft {
         self.lights.push(light);
     }
 
+    /// Makes the last light, a point light, face a direction, with a power of the cosine of the angle to it.
+    pub(super) fn face(&mut self, [x, y, z]: [f64; 3], mu: f64) {
+        if let Some(light) = self.lights.last_mut()
+            && light.starts_with("Point")
+            && light.pop() == Some(')')
+        {
+            light.push_str(&format!(", direction: ({x}, {y}, {z}), mu: {mu})"));
+        }
+    }
+
     pub(super) fn sphere(&mut self, center: [f64; 3], radius: f64) {
         self.spheres.push(sphere(center, radius));
     }

@@ -2,6 +2,7 @@
 
 use super::draft::Draft;
 use super::extremes::{brightness, far_parallel_lenses, huge_floors, near_eyes, nearly_coincident};
+use super::leds::{leds, leds_together};
 use super::outlines::outlined;
 use super::parallel::{parallel_lenses, planes_that_cut};
 use super::point_lights::{grazing_cones, lights_between_spheres, lights_inside, near_lights};
@@ -29,7 +30,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 38] = [
+pub(super) const FAMILIES: [Family; 40] = [
     Family {
         name: "ordinary",
         draft: Maker::Random(ordinary),
@@ -218,6 +219,16 @@ pub(super) const FAMILIES: [Family; 38] = [
     Family {
         name: "together",
         draft: Maker::Row(together),
+        rarity: 2,
+    },
+    Family {
+        name: "LEDs",
+        draft: Maker::Random(leds),
+        rarity: 1,
+    },
+    Family {
+        name: "LED mixtures",
+        draft: Maker::Row(leds_together),
         rarity: 2,
     },
 ];

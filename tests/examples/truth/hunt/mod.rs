@@ -8,6 +8,7 @@ mod draft;
 mod extremes;
 mod families;
 mod laws;
+mod leds;
 mod limits;
 mod options;
 mod outlines;

@@ -5,7 +5,8 @@
 //!
 //! > ρ φ (−l · s)^μ max(0, n · l) / |P − X|², l = (P − X) / |P − X|,
 //!
-//! up to a factor that all lights share. A point light shines equally in all directions: μ = 0. The factor is the
+//! up to a factor that all lights share. A point light without a `direction` shines equally in all of them: μ = 0. The
+//! factor is the
 //! square of the mean distance here, as for readers that divide all lengths by this distance.
 //!
 //! # Source
@@ -116,8 +117,12 @@ pub(super) fn write(
     let setup = line(&[focal_lengths.x, x, y, mean_distance]);
     let setup = [HEADER.to_owned(), format!("{sizes} {setup}")];
     let parameters = lights.iter().zip(&positions).map(|(light, position)| {
-        // The axis of view; μ; and a number that nobody reads.
-        let (direction, exponent, last) = (DVec3::Z, 0.0, 0.0);
+        // Of a light that shines equally in all directions, the axis of view; then μ, and a number that nobody reads.
+        let (direction, exponent) = match light.emission() {
+            Some(emission) => (camera.direction(emission.direction()), emission.mu()),
+            None => (DVec3::Z, 0.0),
+        };
+        let last = 0.0;
         let vectors = [*position, direction, brightness(light)].map(|vector| vector.to_array());
         let mut numbers = vectors.concat();
         numbers.extend([exponent, last]);

@@ -15,12 +15,16 @@ const WEAK: f64 = 0.004;
 /// A crescent that covers no more than this part of a sphere's picture is not what a light is for.
 const THIN: f64 = 0.01;
 
-/// A warning about each light that adds very little to every sphere. A light of intensity 0 is meant to be off, and a
+/// A warning about each light that adds very little, or nothing, to every sphere. A light of intensity 0 is meant to be off, and a
 /// tolerance far below what it adds tells that so little light is meant.
 pub(in super::super) fn too_weak(world: &World, tolerance: f64) -> Vec<String> {
     let weak = WEAK.min(tolerance / LARGEST_PART);
     let lights = world.lights.iter().enumerate();
     let warnings = lights.filter_map(|(index, light)| {
+        let is_averted = averted(index + 1, light, world.spheres());
+        if is_averted.is_some() {
+            return is_averted;
+        }
         let spheres = 0..world.spheres().len();
         let is_bright = |sphere: usize| added(world, light, sphere) > weak;
         if spheres.clone().into_par_iter().any(is_bright) {
@@ -33,6 +37,32 @@ pub(in super::super) fn too_weak(world: &World, tolerance: f64) -> Vec<String> {
         (most > 0.0).then(|| told(index + 1, light, most, &world.spheres()[sphere]))
     });
     warnings.collect()
+}
+
+/// A warning about a lamp that faces away from all spheres, and lights none of them.
+fn averted(number: usize, light: &Light, spheres: &[Sphere]) -> Option<String> {
+    let lamp = light.point()?;
+    let direction = lamp.emission()?.direction();
+    let all = spheres
+        .par_iter()
+        .map(|sphere| (ahead(sphere, lamp.position(), direction), sphere));
+    let (most, nearest) = all.max_by(|one, other| one.0.total_cmp(&other.0))?;
+    if most > 0.0 || light.intensity() == Color::ZERO {
+        return None;
+    }
+    let way = nearest.center() - lamp.position();
+    let [x, y, z] = (way / way.abs().max_element())
+        .to_array()
+        .map(|part| short(part + 0.0));
+    Some(format!(
+        "light {number} faces away from all spheres: `direction` points from the lamp to what it lights, so try \
+         `direction: ({x}, {y}, {z})`"
+    ))
+}
+
+/// How far a sphere reaches ahead of the plane through a point across a unit vector.
+fn ahead(sphere: &Sphere, point: DVec3, direction: DVec3) -> f64 {
+    (sphere.center() - point).dot(direction) + sphere.radius()
 }
 
 fn told(number: usize, light: &Light, most: f64, brightest: &Sphere) -> String {
@@ -90,6 +120,11 @@ pub(super) fn behind(world: &World, views: &[&View]) -> Option<String> {
         true => "only ambient light shows",
         false => "the spheres are black",
     };
+    let is_averted = |light: &Light| averted(0, light, spheres).is_some();
+    if world.lights.iter().all(is_averted) {
+        // It is told of each of them.
+        return None;
+    }
     let toward = world.lights.iter().find_map(Light::toward);
     let remedy = toward.map_or_else(
         || "move them to the camera's side".to_owned(),
@@ -119,7 +154,12 @@ fn share_lit(world: &World, sphere: &Sphere, view: &View) -> f64 {
         .lights
         .iter()
         .filter(|light| light.intensity().max_element() > 0.0);
-    let overlaps = shining.map(|light| {
+    let facing = shining.filter(|light| {
+        let lamp = light.point();
+        let emission = lamp.and_then(|lamp| Some((lamp.position(), lamp.emission()?.direction())));
+        emission.is_none_or(|(position, direction)| ahead(sphere, position, direction) > 0.0)
+    });
+    let overlaps = facing.map(|light| {
         let (to_light, lit) = match light.point() {
             Some(point) => cap(point.position() - center, radius),
             None => (light.toward().unwrap_or_default(), FRAC_PI_2),
@@ -190,6 +230,30 @@ mod tests {
         for (tolerance, told) in [(1e-3, 1), (3e-5, 1), (1e-5, 0)] {
             let warnings = too_weak(dim.world(), tolerance);
             assert_eq!(warnings.len(), told, "{tolerance}: {warnings:?}");
+        }
+    }
+
+    #[test]
+    fn lamps_that_face_away_from_all_are_told() {
+        let toward_lens = "Point(position: (4, 0, 9), direction: (0, 0, 1))";
+        let spheres = "camera: Free(), spheres: [(center: (0, 0, 5), radius: 1), (center: (0, 2, 7), radius: 1)]";
+        let of = |light: &str| {
+            let scene = scene(&format!("lights: [{light}], {spheres}"));
+            let view = scene.view(1).unwrap();
+            let behind = behind(scene.world(), &[&view]);
+            (too_weak(scene.world(), 1e-3).join("; "), behind)
+        };
+        let told = "light 1 faces away from all spheres: `direction` points from the lamp to what it lights, so try \
+                    `direction: (-1, 0.5, -0.5)`";
+        assert_eq!(of(toward_lens), (told.to_owned(), None));
+        // Its plane touches neither, or cuts one.
+        for lamp in [
+            "Point(position: (4, 0, 7.9), direction: (0, 0, 1))",
+            "Point(position: (4, 0, 9), direction: (0, 0, -1), mu: 80)",
+            "Point(position: (4, 0, 9), direction: (0, 0, 1), intensity: 0)",
+            "Point(position: (4, 0, 9))",
+        ] {
+            assert_eq!(of(lamp).0, "", "{lamp}");
         }
     }
 

@@ -124,7 +124,18 @@ enum LightPlace {
         falloff: &'static str,
         /// The distance at which a white surface has the radiance `intensity`.
         reference: f64,
+        #[serde(flatten)]
+        emission: Option<Emission>,
     },
+}
+
+/// The directions in which a lamp sends its light: the one that it faces, in the right-handed world and in the axes of the
+/// camera, and the power of the cosine of the angle to it.
+#[derive(Debug, Serialize)]
+struct Emission {
+    direction: [f64; 3],
+    direction_camera: [f64; 3],
+    mu: f64,
 }
 
 /// The results of rendering.
@@ -306,6 +317,11 @@ impl<'a> Light<'a> {
                         LightFalloff::None => "none",
                     },
                     reference: light.reference(),
+                    emission: light.emission().map(|emission| Emission {
+                        direction: numbers(right_handed(emission.direction())),
+                        direction_camera: numbers(place.direction(emission.direction())),
+                        mu: emission.mu(),
+                    }),
                 },
             },
             intensity: numbers(light.intensity()),

@@ -212,3 +212,35 @@ fn a_sidecar_has_the_name_of_its_picture() {
     assert_eq!(name("out/a.0001.png"), "out/a.0001.json");
     assert_eq!(name("ball.exr"), "ball.json");
 }
+
+/// The camera looks along +x from (1, 2, 3): its right is the world's back.
+#[test]
+fn a_lamp_has_its_direction_in_both_axes() {
+    let lights =
+        "lights: [Point(position: (2, 2, 3), direction: (3, 0, -4), mu: 1.5, reference: 1)]";
+    let text = SCENE.replace(
+        "lights: [Directional(toward: (0, 0, -3), intensity: (1, 0.1, 0))]",
+        lights,
+    );
+    let scene = Scene::parse(&text, Path::new("a.ron")).unwrap();
+    let view = scene.view(7).unwrap();
+    let (_, value) = written(&Sidecar::of(&scene, Path::new("wall.ron"), 7, &view));
+    let lamp = &value["lights"][0];
+    let close = |name: &str, expected: [f64; 3]| {
+        for (index, expected) in expected.into_iter().enumerate() {
+            let found = lamp[name][index].as_f64().unwrap();
+            assert!((found - expected).abs() < 1e-15, "{name}: {found}");
+        }
+    };
+    close("direction", [0.6, 0.0, 0.8]);
+    close("direction_camera", [0.8, 0.0, 0.6]);
+    close("position_camera", [0.0, 0.0, 1.0]);
+    assert_eq!(lamp["mu"], 1.5);
+    // One that shines in all directions has none.
+    let plain = text.replace(", direction: (3, 0, -4), mu: 1.5", "");
+    let scene = Scene::parse(&plain, Path::new("a.ron")).unwrap();
+    let (_, value) = written(&Sidecar::of(&scene, Path::new("wall.ron"), 7, &view));
+    for name in ["direction", "direction_camera", "mu"] {
+        assert_eq!(value["lights"][0].get(name), None, "{name}");
+    }
+}

@@ -118,6 +118,22 @@ fn whatever_changes_a_picture_changes_its_digest() {
         ("ambient: 0.125", "ambient: 0.5"),
         ("shadows: true", "shadows: false"),
         ("toward: (-1", "toward: (-2"),
+        (
+            "Directional(toward: (-1, 1, -1)",
+            "Point(reference: 2, position: (-1, 1, -1)",
+        ),
+        (
+            "Directional(toward: (-1, 1, -1)",
+            "Point(reference: 2, position: (-1, 1, -1), direction: (0, 0, 1)",
+        ),
+        (
+            "Directional(toward: (-1, 1, -1)",
+            "Point(reference: 2, position: (-1, 1, -1), direction: (0, 0, 1), mu: 2",
+        ),
+        (
+            "Directional(toward: (-1, 1, -1)",
+            "Point(reference: 2, position: (-1, 1, -1), direction: (0, 1, 1), mu: 2",
+        ),
         ("intensity: 0.5", "intensity: 0.25"),
         ("intensity: 0.5", "intensity: 0.5, name: \"key\""),
         ("intensity: 0.5", "intensity: 0.5, name: \"rim\""),

@@ -30,6 +30,8 @@ pub(crate) enum Kind {
     Seam(usize, usize),
     /// The great circle of an active sphere that faces a light edge-on.
     Terminator(usize, usize),
+    /// The circle in which the plane beyond which a light sends nothing cuts an active sphere.
+    Cutoff(usize, usize),
     /// The inner edge of an active sphere's outline.
     Outline(usize),
 }
@@ -229,7 +231,17 @@ impl Contents {
                 Patch::new(cell, ball, discriminant, along)
             });
             for light in 0..scene.lights.len() {
-                let reach = if may_be_lit && reaching & (1 << light) != 0 {
+                let may_reach = may_be_lit && reaching & (1 << light) != 0;
+                let cutoff = match &scene.lights[light].near {
+                    Some(near) if may_reach => {
+                        let plane = scene.lights[light].cutoff(&active.ball);
+                        plane.map(|plane| (plane, near.position))
+                    }
+                    _ => None,
+                };
+                let is_cut_off =
+                    cutoff.is_some_and(|(plane, lamp)| active.is_beyond(cell, &plane, lamp));
+                let reach = if may_reach && !is_cut_off {
                     if self.is_crowded {
                         self.reach.push(Reach::Past(0..0));
                         continue;
@@ -253,6 +265,9 @@ impl Contents {
                             .push((Kind::Terminator(position, light), terminator));
                     }
                 }
+                if let (Some((plane, lamp)), Reach::Past(_)) = (cutoff, &reach) {
+                    self.add_cutoff(cell, (position, light), &plane, lamp);
+                }
                 self.reach.push(reach);
             }
         }
@@ -270,7 +285,7 @@ impl Contents {
         });
         into.active.extend(active);
         into.conics.clear();
-        let is_of_light = |kind: &Kind| matches!(kind, Kind::Terminator(..));
+        let is_of_light = |kind: &Kind| matches!(kind, Kind::Terminator(..) | Kind::Cutoff(..));
         let conics = self.conics.iter().filter(|(kind, _)| !is_of_light(kind));
         into.conics.extend(conics);
         into.occluders.clear();

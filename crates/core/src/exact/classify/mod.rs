@@ -6,6 +6,7 @@ pub(crate) mod coincidence;
 pub(crate) mod contents;
 mod cut;
 pub(super) mod cut_side;
+mod cutoff;
 pub(crate) mod discriminant;
 pub(crate) mod face;
 mod hardness;

@@ -121,6 +121,41 @@ impl Patch {
         (FAR * start < self.around).then_some([start, self.around])
     }
 
+    /// Its ends, and its widths there: it lies among the points that are no farther from the way between the ends.
+    pub(super) fn widths(&self) -> [(DVec3, f64); 2] {
+        let [start, end] = self.ends;
+        [(start, self.width_at_start()), (end, self.around)]
+    }
+
+    /// The least and the largest cosine, from 0 to 1, of the angle between a direction and the way from a point to any of it.
+    pub(super) fn cosines_from(&self, point: DVec3, direction: DVec3) -> [f64; 2] {
+        const HALF_TURN: f64 = std::f64::consts::PI;
+        let [one, other] = self.widths().map(|(end, around)| {
+            let way = end - point;
+            let distance = way.length();
+            let angle = if around < distance {
+                libm::asin(around / distance)
+            } else {
+                HALF_TURN
+            };
+            (way / distance, angle)
+        });
+        let wider = one.1.max(other.1);
+        let angle = |a: DVec3, b: DVec3| libm::atan2(a.cross(b).length(), a.dot(b));
+        let [of_one, of_other] = [one.0, other.0].map(|way| angle(way, direction));
+        // Ways between both turn no farther from the nearer one of them than half of how far these are apart.
+        let wider = wider + 0.5 * angle(one.0, other.0);
+        let nearest = of_one.min(of_other) - wider;
+        let farthest = of_one.max(of_other) + wider;
+        // What is not a number may be anything.
+        if !(nearest.is_finite() && farthest.is_finite()) {
+            return [0.0, 1.0];
+        }
+        let farthest = farthest.min(0.5 * HALF_TURN);
+        let nearest = nearest.clamp(0.0, 0.5 * HALF_TURN);
+        [farthest, nearest].map(|angle| libm::cos(angle).clamp(0.0, 1.0))
+    }
+
     /// Its width where it begins: for rays from an eye, the width grows with the distance.
     fn width_at_start(&self) -> f64 {
         let [start, end] = self.ends;

@@ -12,6 +12,7 @@ use crate::edges::silhouette::silhouette;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
+use crate::light::lobe::Lobe;
 use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
@@ -86,7 +87,8 @@ impl Contents {
                 if let (Some(near), Reach::Past(_)) = (
                     &scene.lights[light].near,
                     &self.reach[position * lights + light],
-                ) && is_near(&active.ball, &patch, near.position)
+                ) && (is_near(&active.ball, &patch, near.position)
+                    || self.is_narrow_beam(scene, (position, light), &patch, negligible))
                 {
                     return true;
                 }
@@ -106,6 +108,32 @@ impl Contents {
             }
         }
         false
+    }
+
+    /// Returns whether the light of a lamp falls too fast, in directions beside the one that it faces, for rules over a
+    /// patch of an active sphere: to exp(−2 · [`FOLLOWED`]) of the highest, which is not negligible.
+    fn is_narrow_beam(
+        &self,
+        scene: &InCamera<'_>,
+        (position, light): (usize, usize),
+        patch: &Patch,
+        negligible: f64,
+    ) -> bool {
+        let light = &scene.lights[light];
+        let Some(near) = &light.near else {
+            return false;
+        };
+        let Some(lobe) = near.lobe.filter(Lobe::is_narrow) else {
+            return false;
+        };
+        let [lowest, highest] = patch.cosines_from(near.position, lobe.direction);
+        let active = &self.active[position];
+        let [diffuse, specular] = Finish::new(scene, active.sphere, self.pixel)
+            .reflectance
+            .brightest(light.intensity);
+        let most = (diffuse + specular) * light.most_on(&active.ball, patch);
+        let fall = 1.0 - libm::exp(-2.0 * FOLLOWED / lobe.mu());
+        highest - lowest > fall * highest && most * libm::pow(highest, lobe.mu()) > negligible
     }
 
     /// The axis, 0 for x, along which halves of a cell of parallel rays see much shorter patches than halves along the other

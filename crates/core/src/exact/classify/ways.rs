@@ -15,7 +15,7 @@ use crate::edges::cell::{Ball, Cell};
 use crate::edges::shadow::{Caster, Cone};
 use crate::exact::budget::{OF_A_CROWD, is_beyond_a_crowd};
 use crate::exact::scene::{InCamera, Light};
-use crate::light::reflection::NearLight;
+use crate::light::near_light::NearLight;
 use crate::model::camera::Projection;
 use crate::search::point_occluders::Beam;
 

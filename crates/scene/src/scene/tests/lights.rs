@@ -91,3 +91,76 @@ fn a_light_that_passes_the_zero_vector_has_no_direction_there() {
     assert_eq!(error.to_string(), "frame 2: light 1 has no direction");
     assert!(scene.view(3).is_ok());
 }
+
+/// The directions in which the lamps of a frame face, and their powers.
+fn emissions(scene: &Scene, frame: i32) -> Vec<(DVec3, f64)> {
+    let lights = scene.lights(&scene.view(frame).unwrap());
+    let lamps = lights.iter().filter_map(Light::point);
+    let emissions = lamps.filter_map(|lamp| lamp.emission());
+    emissions
+        .map(|emission| (emission.direction(), emission.mu()))
+        .collect()
+}
+
+#[test]
+fn a_lamp_with_a_direction_has_lambert_s_law_by_default() {
+    let scene = scene(
+        "lights: [Point(position: (0, 1, 0), direction: (0, 3, -4)), Point(position: (0, 1, 0)),
+            Point(position: (0, 1, 0), direction: (0, 0, 2), mu: 0)]",
+    );
+    assert_eq!(
+        emissions(&scene, 1),
+        [(DVec3::new(0.0, 0.6, -0.8), 1.0), (DVec3::Z, 0.0)]
+    );
+}
+
+#[test]
+fn an_attached_lamp_turns_with_the_camera() {
+    let fields = "lights: [Point(position: (1, 0, 0), direction: (0, 0, 1), attached: Camera)],
+        animation: Turntable(frames: 8)";
+    let scene = filmed("Orbit(target: (1, 2, 3), radius: 4, elevation: 20)", fields);
+    for frame in 1..=8 {
+        let [(direction, mu)] = emissions(&scene, frame)[..] else {
+            panic!("one lamp");
+        };
+        let forward = camera(&scene, frame).forward();
+        assert!((direction - forward).length() < 1e-15, "{frame}");
+        assert_eq!(mu, 1.0);
+    }
+}
+
+#[test]
+fn keys_turn_lamps_and_narrow_them() {
+    let scene = scene(
+        r#"lights: [Point(name: "a", position: (0, 1, 0), direction: (0, 0, 1), mu: 3)],
+        animation: Keyframes(keys: [
+            (frame: 1, light: "a", direction: (0, 0, 1), mu: 1, ease: Linear),
+            (frame: 5, light: "a", direction: (2, 0, 1), mu: 9),
+            (frame: 7, light: "a", direction: (-2, 0, -1)),
+        ])"#,
+    );
+    let middle = DVec3::new(1.0, 0.0, 1.0).normalize();
+    let [(direction, mu)] = emissions(&scene, 3)[..] else {
+        panic!("one lamp");
+    };
+    assert!((direction - middle).length() < 1e-15);
+    assert_eq!(mu, 5.0);
+    assert_eq!(emissions(&scene, 7)[0].1, 9.0);
+    // Half-way between opposite directions it has none.
+    let error = scene.view(6).unwrap_err();
+    assert_eq!(error.to_string(), "frame 6: light 1 has no direction");
+}
+
+#[test]
+fn a_turntable_turns_lamps_with_what_they_face() {
+    let scene = scene(
+        "lights: [Point(position: (0, 1, 5), direction: (0, -1, -1))],
+        animation: Turntable(frames: 4, what: Lights)",
+    );
+    let root = 0.5_f64.sqrt();
+    for (frame, x, z) in [(1, 0.0, -1.0), (2, -1.0, 0.0), (3, 0.0, 1.0), (4, 1.0, 0.0)] {
+        let expected = DVec3::new(x * root, -root, z * root);
+        let (found, _) = emissions(&scene, frame)[0];
+        assert!((found - expected).length() < 1e-15, "{frame}: {found}");
+    }
+}

@@ -3,7 +3,8 @@
 use fearless_simd::Simd;
 
 use super::circle::Trace;
-use super::events::{Function, INTERVALS, Stretch, polynomial, value};
+use super::events::{INTERVALS, Stretch};
+use super::functions::{Function, polynomial, value};
 use super::outlines::outlines;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Contents;
@@ -318,7 +319,9 @@ impl Boundary {
             Edge::Left | Edge::Right => (first, NONE),
             Edge::Limb => (curve.own[0], first),
             Edge::Seam => (curve.own[0], curve.own[1]),
-            Edge::Terminator(_) | Edge::Shadow(..) | Edge::Outline => (curve.own[0], curve.own[0]),
+            Edge::Terminator(_) | Edge::Cutoff(_) | Edge::Shadow(..) | Edge::Outline => {
+                (curve.own[0], curve.own[0])
+            }
         };
         let outlines = outlines(setting, curve, [inner, outer], (places, lanes.middle));
         let arc = Arc {

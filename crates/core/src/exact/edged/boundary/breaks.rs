@@ -4,7 +4,8 @@ use fearless_simd::Simd;
 
 use super::arcs::{Front, between, front};
 use super::circle::Trace;
-use super::events::{Function, INTERVALS, Stretch, in_disc, is_beyond, polynomial, value};
+use super::events::{INTERVALS, Stretch};
+use super::functions::{Function, in_disc, is_beyond, polynomial, value};
 use super::setting::{Boundary, Edge, NONE, Setting};
 use crate::exact::classify::contents::Kind;
 use crate::exact::classify::reach::Reach;

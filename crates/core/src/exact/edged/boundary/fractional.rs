@@ -17,6 +17,7 @@ use super::primitive::{EIGHT, Lines, Noise, SIX, Sender, Summed};
 use crate::edges::terminator::Plane;
 use crate::exact::points::Points;
 use crate::exact::scene::Light;
+use crate::light::lobe::Beyond;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{f64x8, mask64x8};
 use fearless_simd::Simd;
@@ -32,12 +33,12 @@ struct Integrand<'a, 'scene, S: Simd> {
 
 /// The roots of P: real ones, or twice the real part of two others, and their distance from the real axis.
 #[derive(Clone, Copy, Debug)]
-struct Roots<S: Simd> {
-    low: f64x8<S>,
-    high: f64x8<S>,
+pub(super) struct Roots<S: Simd> {
+    pub(super) low: f64x8<S>,
+    pub(super) high: f64x8<S>,
     aside: f64x8<S>,
     /// P, at 1, σ and σ².
-    polynomial: [f64x8<S>; 3],
+    pub(super) polynomial: [f64x8<S>; 3],
 }
 
 /// A part of chords, from the end that is nearer to a root.
@@ -119,7 +120,7 @@ impl<S: Simd> Integrand<'_, '_, S> {
     #[inline(always)]
     fn integral(&self, simd: S, plane: &Plane, noise: &mut Noise) -> (Integral<S>, u64) {
         let one = f64x8::splat(simd, 1.0);
-        let roots = self.roots(simd, plane);
+        let roots = roots(simd, self.sender, self.chord, self.y, plane);
         let apart = roots.high - roots.low;
         let between = (roots.low + roots.high) * 0.5;
         let clamped = |place: f64x8<S>| place.max(-one).min(one);
@@ -258,47 +259,54 @@ impl<S: Simd> Integrand<'_, '_, S> {
             None => diffuse.of(normal[0].dot_one(self.light.toward)),
             Some(near) => {
                 let points = Points::new(simd, &active.ball, ray.times(one / at.denominator));
-                let (toward, factor) = near.seen_from(&points.place());
+                let (toward, factor) = near.seen_from(&points.place(), Beyond::Continued);
                 diffuse.of(normal[0].dot(&toward)) * factor
             }
         };
         power * at.slope / (at.denominator * at.denominator)
     }
+}
 
-    /// The roots of P, from its values at the ends and in the middle of the chords.
-    #[inline(always)]
-    fn roots(&self, simd: S, plane: &Plane) -> Roots<S> {
-        let zero = f64x8::splat(simd, 0.0);
-        let Sender { cell, active, .. } = *self.sender;
-        let mut values = [zero; 3];
-        for (value, sigma) in values.iter_mut().zip([-1.0, 0.0, 1.0]) {
-            let at = self.chord.homogeneous(sigma);
-            let ray = ray_times(cell, &at, self.y);
-            let (normal, length, along) = normal_times(simd, &active.ball, &ray, at.root);
-            *value = normal.dot_one(plane.axis) * along / length;
-            if plane.offset != 0.0 {
-                *value -= along * plane.offset;
-            }
+/// The roots of P of the plane of a terminator or of a cutoff, on chords of lines with these y: from its values at their
+/// ends and in their middle.
+#[inline(always)]
+pub(super) fn roots<S: Simd>(
+    simd: S,
+    sender: &Sender<'_, '_>,
+    chord: &Chord<S>,
+    y: f64x8<S>,
+    plane: &Plane,
+) -> Roots<S> {
+    let zero = f64x8::splat(simd, 0.0);
+    let Sender { cell, active, .. } = *sender;
+    let mut values = [zero; 3];
+    for (value, sigma) in values.iter_mut().zip([-1.0, 0.0, 1.0]) {
+        let at = chord.homogeneous(sigma);
+        let ray = ray_times(cell, &at, y);
+        let (normal, length, along) = normal_times(simd, &active.ball, &ray, at.root);
+        *value = normal.dot_one(plane.axis) * along / length;
+        if plane.offset != 0.0 {
+            *value -= along * plane.offset;
         }
-        let [first, constant, last] = values;
-        let linear = (last - first) * 0.5;
-        let square = (last + first) * 0.5 - constant;
-        let discriminant = linear * linear - square * constant * 4.0;
-        let is_real = discriminant.simd_ge(0.0);
-        let root = discriminant.abs().sqrt();
-        let is_falling = linear.simd_lt(0.0);
-        let sum = (linear + is_falling.select(-root, root)) * -0.5;
-        let middle = linear * -0.5 / square;
-        let far = zero + FAR;
-        let known = |place: f64x8<S>| place.abs().simd_lt(FAR).select(place, far);
-        let one = known(is_real.select(sum / square, middle));
-        let other = known(is_real.select(constant / sum, middle));
-        Roots {
-            low: one.min(other),
-            high: one.max(other),
-            aside: is_real.select(zero, (root * 0.5 / square).abs().min(far)),
-            polynomial: [constant, linear, square],
-        }
+    }
+    let [first, constant, last] = values;
+    let linear = (last - first) * 0.5;
+    let square = (last + first) * 0.5 - constant;
+    let discriminant = linear * linear - square * constant * 4.0;
+    let is_real = discriminant.simd_ge(0.0);
+    let root = discriminant.abs().sqrt();
+    let is_falling = linear.simd_lt(0.0);
+    let sum = (linear + is_falling.select(-root, root)) * -0.5;
+    let middle = linear * -0.5 / square;
+    let far = zero + FAR;
+    let known = |place: f64x8<S>| place.abs().simd_lt(FAR).select(place, far);
+    let one = known(is_real.select(sum / square, middle));
+    let other = known(is_real.select(constant / sum, middle));
+    Roots {
+        low: one.min(other),
+        high: one.max(other),
+        aside: is_real.select(zero, (root * 0.5 / square).abs().min(far)),
+        polynomial: [constant, linear, square],
     }
 }
 
@@ -316,4 +324,4 @@ fn chosen<S: Simd>(
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -4,7 +4,7 @@ use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::circle::Trace;
-use super::events::polynomial;
+use super::functions::polynomial;
 use super::primitive::ray;
 use super::setting::{Arc, Curve, Edge, NONE, Setting};
 use crate::exact::edged::rule::{MIDDLE, NODES};

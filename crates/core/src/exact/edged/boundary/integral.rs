@@ -61,13 +61,24 @@ impl Boundary {
                 finish,
                 reference,
                 terminators: 0,
+                cutoffs: 0,
                 rules: PowerRules::ZERO,
             });
         }
         self.levels.clear();
         for (kind, conic) in &contents.conics {
-            if let Kind::Terminator(one, light) = *kind {
-                self.note_terminator(&mut surfaces[one], one, light, conic);
+            match *kind {
+                Kind::Terminator(one, light) => {
+                    self.note_terminator(&mut surfaces[one], one, light, conic);
+                }
+                Kind::Cutoff(one, light) => {
+                    let lobe = scene.lights[light].near.and_then(|near| near.lobe);
+                    if lobe.is_some_and(|lobe| lobe.is_singular()) {
+                        surfaces[one].cutoffs |= 1 << light;
+                        self.add_levels(one, &surfaces[one].reference, conic);
+                    }
+                }
+                Kind::Silhouette(_) | Kind::Seam(..) | Kind::Outline(_) => {}
             }
         }
         if cell.is_parallel() {
@@ -125,6 +136,14 @@ impl Boundary {
                     };
                     let circle = Circle::terminator(ball, &plane);
                     (circle, Edge::Terminator(light), [one, NONE])
+                }
+                Kind::Cutoff(one, light) => {
+                    let ball = &actives[one].ball;
+                    let Some(plane) = scene.lights[light].cutoff(ball) else {
+                        continue;
+                    };
+                    let circle = Circle::terminator(ball, &plane);
+                    (circle, Edge::Cutoff(light), [one, NONE])
                 }
             };
             self.add_circle(simd, &setting, circle, edge, own, &mut sum);

@@ -100,6 +100,8 @@ impl Sender<'_, '_> {
                 if is_followed {
                     missed = self.jumps(simd, chord, lines, search.parts, &mut stops, noise);
                 }
+                let cutoffs = lines.lights & self.cutoffs;
+                self.divide_at_cutoffs(simd, chord, lines, cutoffs, &mut stops);
                 let most = stops.most();
                 if !is_bumpy && most == 0 {
                     let mut sum = self.smooth(simd, chord, lines, noise);
@@ -107,7 +109,8 @@ impl Sender<'_, '_> {
                     return sum;
                 }
                 // A power that is not whole begins like a root.
-                let is_eased = turns >= search.parts && !self.finish.has_whole_exponent();
+                let is_fractional = turns >= search.parts && !self.finish.has_whole_exponent();
+                let is_eased = is_fractional || cutoffs != 0;
                 let mut sum = Summed {
                     light: [zero; 3],
                     doubt: missed,

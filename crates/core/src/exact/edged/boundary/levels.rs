@@ -14,7 +14,8 @@ use fearless_simd::Simd;
 use super::arcs::Lanes;
 use super::chord::Reference;
 use super::circle::Trace;
-use super::events::{Function, INTERVALS, Stretch, value};
+use super::events::{INTERVALS, Stretch};
+use super::functions::{Function, value};
 use super::setting::{Arc, Boundary, Edge, Setting};
 use crate::numeric::lanes::f64x8;
 use crate::numeric::polynomial::Quadratic;
@@ -79,8 +80,9 @@ impl Boundary {
                         ..*whole
                     };
                     let places = stretch.places(simd, setting);
-                    // A terminator touches the level of its own highest place, which no change of sign tells.
-                    if may_turn || matches!(whole.curve.edge, Edge::Terminator(_)) {
+                    // A terminator or a cutoff touches the level of its own highest place, which no change of sign tells.
+                    if may_turn || matches!(whole.curve.edge, Edge::Terminator(_) | Edge::Cutoff(_))
+                    {
                         let (level, breaks) = (Function::Rise, &mut self.breaks);
                         stretch.roots(simd, setting, level, places.dy, INTERVALS, breaks);
                     }

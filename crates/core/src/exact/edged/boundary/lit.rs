@@ -4,7 +4,9 @@ use fearless_simd::Simd;
 
 use super::arcs::{Lanes, add, between};
 use super::circle::Trace;
-use super::events::{Function, INTERVALS, Stretch, facing, in_disc, is_beyond};
+use super::cutoff_beside::CutoffBeside;
+use super::events::{INTERVALS, Stretch};
+use super::functions::{Function, ahead, facing, in_disc, is_beyond};
 use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::edges::terminator::Plane;
@@ -30,7 +32,7 @@ impl Boundary {
             let is_dark = [(arc.inner, 0), (arc.outer, 1)]
                 .map(|(sphere, side)| arc.outlines[side] || is_dark(setting, sphere));
             if is_dark == [true; 2] {
-                if !matches!(curve.edge, Edge::Terminator(_) | Edge::Shadow(..)) {
+                if curve.edge.light().is_none() {
                     add(&mut self.lit_arcs, arc);
                 }
                 continue;
@@ -105,7 +107,7 @@ impl Boundary {
 
     /// Adds a part of an arc that these lights reach, but for the event that the curve is.
     fn add_lit(&mut self, curve: &Curve, mut arc: Arc) {
-        if let Edge::Terminator(light) | Edge::Shadow(light, _) = curve.edge {
+        if let Some(light) = curve.edge.light() {
             if arc.lit[0] >> light & 1 == 0 {
                 return;
             }
@@ -158,6 +160,20 @@ impl Boundary {
                         dark = facing.simd_le(0.0).to_bitmask();
                     }
                     let mut closed = between(dark);
+                    let cutoff = CutoffBeside::of(setting, curve, sphere, light);
+                    let ahead = match &cutoff {
+                        CutoffBeside::Plane(plane) => {
+                            Some(ahead(plane, setting, (sphere, light), &points))
+                        }
+                        CutoffBeside::Ahead | CutoffBeside::Beyond => None,
+                    };
+                    let beyond = match ahead {
+                        Some(ahead) => ahead.simd_le(0.0).to_bitmask(),
+                        None if matches!(cutoff, CutoffBeside::Beyond) => 0xff,
+                        None => 0,
+                    };
+                    closed |= between(beyond);
+                    dark |= beyond;
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
                             continue;
@@ -176,6 +192,10 @@ impl Boundary {
                     if let Some(facing) = facing {
                         let function = Function::Lit(sphere, light);
                         stretch.roots(simd, setting, function, facing, open, &mut self.breaks);
+                    }
+                    if let Some(ahead) = ahead {
+                        let function = Function::Ahead(sphere, light);
+                        stretch.roots(simd, setting, function, ahead, open, &mut self.breaks);
                     }
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
@@ -229,6 +249,14 @@ impl Boundary {
                     if let Some(plane) = plane {
                         let facing = facing(&plane, &active.ball, &points.normal);
                         lit = facing.simd_gt(0.0).to_bitmask();
+                    }
+                    match CutoffBeside::of(setting, curve, sphere, light) {
+                        CutoffBeside::Plane(plane) => {
+                            let ahead = ahead(&plane, setting, (sphere, light), &points);
+                            lit &= ahead.simd_gt(0.0).to_bitmask();
+                        }
+                        CutoffBeside::Ahead => {}
+                        CutoffBeside::Beyond => continue,
                     }
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {

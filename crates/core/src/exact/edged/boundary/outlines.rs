@@ -3,7 +3,8 @@
 use fearless_simd::Simd;
 
 use super::circle::Trace;
-use super::events::{Function, Stretch, value};
+use super::events::Stretch;
+use super::functions::{Function, value};
 use super::setting::{Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::face::Face;
 
@@ -46,7 +47,7 @@ pub(super) fn outlines<S: Simd>(
     }
     match curve.edge {
         Edge::Outline => return [false, true],
-        Edge::Terminator(_) | Edge::Shadow(..) => return [false; 2],
+        Edge::Terminator(_) | Edge::Cutoff(_) | Edge::Shadow(..) => return [false; 2],
         Edge::Left | Edge::Right | Edge::Limb | Edge::Seam => {}
     }
     let mut outlines = [false; 2];

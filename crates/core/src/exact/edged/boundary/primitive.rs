@@ -61,6 +61,8 @@ pub(super) struct Sender<'a, 'scene> {
     pub(super) reference: &'a Reference,
     /// The lights, bit by bit, whose terminators may lie in the cell.
     pub(super) terminators: u64,
+    /// Those whose light is singular at their cutoffs, which may lie in the cell.
+    pub(super) cutoffs: u64,
     /// Those for its diffuse light, where its power is not whole.
     pub(super) rules: &'a PowerRules,
     pub(super) tolerance: f64,
@@ -128,16 +130,31 @@ impl Sender<'_, '_> {
                 if self.has_kinks() {
                     return self.kinked(simd, &chord, lines, noise);
                 }
-                if self.terminators & lines.lights != 0 && self.finish.has_fractional_exponent() {
-                    return self.fractional(simd, &chord, lines, noise);
+                if self.cutoffs & lines.lights != 0 {
+                    return self.cut_off(simd, &chord, lines, noise);
                 }
-                if self.is_plain() {
-                    self.plain(simd, &chord, lines)
-                } else {
-                    self.smooth(simd, &chord, lines, noise)
-                }
+                self.without_kinks(simd, &chord, lines, noise)
             },
         )
+    }
+
+    /// Light without kinks, and without cutoffs at which it is singular.
+    #[inline(always)]
+    pub(super) fn without_kinks<S: Simd>(
+        &self,
+        simd: S,
+        chord: &Chord<S>,
+        lines: &Lines<S>,
+        noise: &mut Noise,
+    ) -> Summed<S> {
+        if self.terminators & lines.lights != 0 && self.finish.has_fractional_exponent() {
+            return self.fractional(simd, chord, lines, noise);
+        }
+        if self.is_plain() {
+            self.plain(simd, chord, lines)
+        } else {
+            self.smooth(simd, chord, lines, noise)
+        }
     }
 
     /// Whether light along chords bends or jumps at unknown places: at terminators of bumps, and where highlights
@@ -159,7 +176,8 @@ impl Sender<'_, '_> {
         const BLUNT: f64 = 1.0;
         let negligible = NEGLIGIBLE * self.tolerance;
         let steep = greatest(chord.way_sq()) * self.finish.sharpness();
-        let first = match (steep < BLUNT, self.scene.has_near_lights) {
+        let is_blunt = steep < BLUNT && !self.scene.has_narrow_lamps;
+        let first = match (is_blunt, self.scene.has_near_lights) {
             (true, false) => 0,
             (true, true) => 1,
             (false, _) => 2,

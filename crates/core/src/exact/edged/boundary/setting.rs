@@ -35,7 +35,7 @@ impl Curve {
 
     /// Returns whether the curve is one of light on a sphere, which is not seen on its outline.
     pub(super) fn is_within_outline(&self) -> bool {
-        matches!(self.edge, Edge::Terminator(_) | Edge::Shadow(..))
+        self.edge.light().is_some()
     }
 }
 
@@ -53,8 +53,20 @@ pub(super) enum Edge {
     Outline,
     /// Between the part that a light reaches and the part that faces away from it.
     Terminator(usize),
+    /// Between the part that a lamp faces and the part that it faces away from.
+    Cutoff(usize),
     /// The light, and which of the casters.
     Shadow(usize, usize),
+}
+
+impl Edge {
+    /// The light whose edge it is, on a sphere.
+    pub(super) fn light(self) -> Option<usize> {
+        match self {
+            Self::Terminator(light) | Self::Cutoff(light) | Self::Shadow(light, _) => Some(light),
+            Self::Right | Self::Left | Self::Limb | Self::Seam | Self::Outline => None,
+        }
+    }
 }
 
 /// A piece of a curve.
@@ -134,6 +146,8 @@ pub(super) struct Surface {
     pub(super) reference: Reference,
     /// The lights, bit by bit, whose terminators may lie in the cell.
     pub(super) terminators: u64,
+    /// Those whose light is singular at their cutoffs, which may lie in the cell.
+    pub(super) cutoffs: u64,
     /// Those for diffuse light with a power that is not whole, where there are such terminators.
     pub(super) rules: PowerRules,
 }
@@ -142,6 +156,7 @@ impl Surface {
     /// Whether sums of these lights along lines are singular at levels of the surface.
     pub(super) fn is_singular(&self, lights: u64) -> bool {
         self.terminators & lights != 0 && self.finish.has_fractional_exponent()
+            || self.cutoffs & lights != 0
     }
 }
 

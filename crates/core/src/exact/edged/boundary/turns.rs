@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::chord::Chord;
 use super::primitive::{Lines, Noise, Sender};
 use crate::exact::points::Points;
-use crate::light::reflection::NearLight;
+use crate::light::near_light::NearLight;
 use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
@@ -25,7 +25,7 @@ impl Turn {
     pub(super) fn value<S: Simd>(&self, normal: &Vectors<S>, at: &Points<S>) -> f64x8<S> {
         let facing = match &self.near {
             None => normal.dot_one(self.toward),
-            Some(near) => normal.dot(&near.seen_from(&at.place()).0),
+            Some(near) => normal.dot(&near.at_distances(&at.place()).0),
         };
         if self.of_spot {
             facing - normal.dot(&at.ray) / at.ray_sq.sqrt()

@@ -24,7 +24,7 @@ use crate::picture::image::Channels;
 use crate::search::tests::Random;
 use crate::search::visibility::Visibility;
 
-const VIEW: View = View {
+pub(in super::super) const VIEW: View = View {
     camera: Camera {
         position: DVec3::ZERO,
         on_axis: DVec3::ZERO,
@@ -57,7 +57,7 @@ fn light(cell: &Cell, ball: &Ball, toward: DVec3, exponent: f64, x: f64, y: f64)
 
 /// The light along a line from its start to its end: midpoints that are dense towards both ends, and towards
 /// the places where light begins.
-fn brute(light: impl Fn(f64) -> f64, start: f64, end: f64) -> f64 {
+pub(in super::super) fn brute(light: impl Fn(f64) -> f64, start: f64, end: f64) -> f64 {
     const LOOKS: u32 = 4000;
     const STEPS: u32 = 4000;
     let at = |share: f64| start + (end - start) * share;
@@ -154,6 +154,7 @@ fn powers_are_summed_up_along_chords() {
             finish: &finish,
             reference: &reference,
             terminators: 1,
+            cutoffs: 0,
             rules: &rules,
             tolerance: 1e-6,
         };
