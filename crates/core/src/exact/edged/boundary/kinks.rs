@@ -39,6 +39,22 @@ struct Search {
     steps: u32,
 }
 
+/// How far a value may go beyond zero where no line is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Unseen {
+    between: f64,
+    at_ends: f64,
+}
+
+impl Unseen {
+    /// Adds what values at the same places of all lines tell.
+    #[inline(always)]
+    fn add(&mut self, values: &[f64; 8]) {
+        self.between = self.between.max(beyond_zero(values));
+        self.at_ends = self.at_ends.max(beyond_ends(values));
+    }
+}
+
 /// The distance beyond zero that a value may go between neighboring lines on which it has one sign: it is a smaller part of
 /// what the value changes by beside them than half. Then all lines miss what lies there, and their sums agree.
 #[inline(always)]
@@ -53,6 +69,26 @@ fn beyond_zero(values: &[f64; 8]) -> f64 {
             let after = step((node + 1).min(NODES - 1));
             let change = step(node).max(before).max(after);
             most = most.max(NEAR * change - one.abs().min(other.abs()));
+        }
+    }
+    most
+}
+
+/// How far a value may go beyond zero at either end of the lines if the outermost line is nearly the first to tell: it is
+/// smaller there than what it may still change by. Then a corner of light, or of darkness, that begins at this line, or
+/// behind it, is next to nothing in all sums.
+///
+/// The end is a fifth of a step behind the outermost line; values may bend.
+#[inline(always)]
+fn beyond_ends(values: &[f64; 8]) -> f64 {
+    const AHEAD: f64 = 0.4;
+    let mut most = 0.0_f64;
+    for (last, next) in [(0, 1), (NODES - 1, NODES - 2)] {
+        let (last, next) = (values[last], values[next]);
+        let change = AHEAD * (last - next).abs();
+        if last.abs() < change {
+            let has_begun = last * next < 0.0;
+            most = most.max(change + if has_begun { last.abs() } else { -last.abs() });
         }
     }
     most
@@ -91,7 +127,7 @@ impl Sender<'_, '_> {
                 let jumps = jumps.to_bitmask() != 0;
                 let search = self.search(chord, jumps);
                 let mut stops = Stops::default();
-                let (is_even, beyond) = self.find(simd, chord, lines, &search, &mut stops, noise);
+                let (is_even, unseen) = self.find(simd, chord, lines, &search, &mut stops, noise);
                 let is_bumpy = self.active.terminators == Terminators::Anywhere;
                 let turns = stops.most();
                 let zero = f64x8::splat(simd, 0.0);
@@ -121,7 +157,7 @@ impl Sender<'_, '_> {
                         (false, false) => UNEVEN,
                         (false, true) => JUMPY,
                     },
-                    tip: self.tip(simd, lines.lights, beyond, jumps),
+                    tip: self.tip(simd, lines.lights, &unseen, jumps),
                 };
                 let mut start = zero - 1.0;
                 for index in 0..=most {
@@ -181,9 +217,19 @@ impl Sender<'_, '_> {
         search.parts <= MOST && exponent >= 1.0 && !self.scene.has_near_lights
     }
 
-    /// The light where a surface turns to lights by so much between lines that it averts itself on.
+    /// The light where a surface turns to lights by so much between lines that it averts itself on, and beyond the
+    /// outermost of them.
     #[inline(never)]
-    fn tip<S: Simd>(&self, simd: S, lights: u64, beyond: f64, jumps: bool) -> f64 {
+    fn tip<S: Simd>(&self, simd: S, lights: u64, unseen: &Unseen, jumps: bool) -> f64 {
+        /// The area of a corner behind the outermost line, over that of what lies between lines: it is a tenth as high.
+        /// Four times as much, as it may be wider than it is high.
+        const OF_ENDS: f64 = 0.04;
+        let light = |beyond: f64| self.light_beyond(simd, lights, beyond, jumps);
+        light(unseen.between) + OF_ENDS * light(unseen.at_ends)
+    }
+
+    /// The light where a surface faces lights by so much, or no light where it does not face them.
+    fn light_beyond<S: Simd>(&self, simd: S, lights: u64, beyond: f64, jumps: bool) -> f64 {
         if beyond <= 0.0 {
             return 0.0;
         }
@@ -205,7 +251,7 @@ impl Sender<'_, '_> {
     }
 
     /// Finds where the chords are to be divided; whether all of them begin alike and are so at like places, and how far
-    /// n·l may go beyond zero between them.
+    /// n·l may go beyond zero where no chord is.
     #[inline(always)]
     fn find<S: Simd>(
         &self,
@@ -215,7 +261,7 @@ impl Sender<'_, '_> {
         search: &Search,
         stops: &mut Stops,
         noise: &mut Noise,
-    ) -> (bool, f64) {
+    ) -> (bool, Unseen) {
         let count = search.parts * search.looks;
         for part in 1..search.parts {
             let at = 2.0 * part as f64 / search.parts as f64 - 1.0;
@@ -233,7 +279,7 @@ impl Sender<'_, '_> {
             1
         };
         let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
-        let mut beyond = 0.0_f64;
+        let mut unseen = Unseen::default();
         let mut is_alike = true;
         stops.samples += 8 * (count + 1) as u64;
         for index in 0..=count {
@@ -257,7 +303,7 @@ impl Sender<'_, '_> {
                         let below = value.simd_lt(0.0).to_bitmask();
                         is_alike &= below == 0 || below == 0xff;
                     }
-                    beyond = beyond.max(beyond_zero(&value.into()));
+                    unseen.add(&value.into());
                     let seeker = Seeker {
                         sender: self,
                         chord,
@@ -278,7 +324,7 @@ impl Sender<'_, '_> {
         }
         let mut counts = stops.counts[..NODES].iter();
         let is_even = is_alike && counts.all(|&count| count == stops.counts[0]);
-        (is_even, beyond)
+        (is_even, unseen)
     }
 
     /// The points of chords, and the normals that light is computed with there.
