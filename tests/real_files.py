@@ -86,7 +86,7 @@ def fetch(index: str, package: str, paths: list[str], folder: Path, most: float)
 
 def render(marbles: str, table: Path, fields: str) -> tuple[bool, str]:
     """Renders a table. Returns whether it succeeded, and the spheres or the message."""
-    ending = "".join(table.suffixes[-2:] if table.suffix in (".gz", ".zst") else table.suffixes[-1:])
+    ending = "".join(table.suffixes[-2:] if table.suffix in (".gz", ".zst", ".bz2", ".xz") else table.suffixes[-1:])
     link, scene = table.parent / f"table{ending}", table.parent / "table.ron"
     link.unlink(missing_ok=True)
     link.symlink_to(table)

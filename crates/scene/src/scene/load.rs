@@ -350,8 +350,14 @@ fn table_name(path: &Path) -> Result<Option<String>, SceneError> {
     }
     let mut head = Vec::new();
     let is_read = OpenFile::open(path).and_then(|file| file.take(BLOCK).read_to_end(&mut head));
-    if is_read.is_err() || !matches!(other_file::kind(path, &head), Kind::Table) {
+    if is_read.is_err() {
         return Ok(None);
+    }
+    match other_file::kind(path, &head) {
+        Kind::Table => {}
+        Kind::Scene => return Ok(None),
+        // Of all its bytes, those that tell this may not be read: no more than up to the first of 0.
+        Kind::Other(message) => return Err(SceneError::unreadable(path, &message)),
     }
     let name = path.file_name().and_then(|name| name.to_str());
     let name = name.ok_or_else(|| {

@@ -29,6 +29,8 @@ pub(crate) struct Form {
     pub(crate) check: Check,
     /// The elements of types of atoms that the file names.
     pub(crate) types: Arc<[AtomType]>,
+    /// Rows with a radius of 0 are atoms that have no surface: they are left out, and not refused.
+    pub(crate) has_points: bool,
     /// Rows end before one that has something else in this column.
     pub(crate) same: Option<(usize, Vec<u8>)>,
 }
@@ -89,6 +91,7 @@ impl Form {
             coordinates: 0..0,
             check: |_, _| None,
             types: Arc::new([]),
+            has_points: false,
             same: None,
         }
     }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::fields::{self, Division};
-use super::form::{ElementOf, LineKind};
+use super::fields::{self, Division, Fields};
+use super::form::{ElementOf, Form, LineKind};
 use super::input::{Input, without_return};
 use crate::text::LocatedFault;
 
@@ -44,6 +44,18 @@ pub(super) fn numbers(
 /// Whether these look like the numbers of types: nothing consists of exactly the elements from hydrogen on.
 pub(super) fn are_of_types(numbers: &BTreeSet<u32>) -> bool {
     !numbers.is_empty() && numbers.iter().copied().eq(1..=numbers.len() as u32)
+}
+
+/// Says whether the number in a column of a line is the element of this line: that of an old PDB file, which has the numbers
+/// of its lines there, is not.
+pub(super) fn is_atomic_number(line: &[u8], column: usize, form: &Form) -> bool {
+    let mut fields = Fields::new(line, &form.division);
+    let field = std::iter::from_fn(|| fields.next()).nth(column);
+    field.is_some_and(|field| {
+        let number = str::from_utf8(&line[field.clone()]).ok();
+        let number = number.and_then(|number| number.parse::<u8>().ok());
+        number.is_some_and(|number| form.atom(line, field).number == number)
+    })
 }
 
 /// The message for numbers in this column that are read as atomic numbers.

@@ -196,7 +196,8 @@ impl Header {
             usize::try_from(count).unwrap_or(ROWS).min(ROWS)
         });
         let numbers = guess::numbers(input, column, division, kind, rows);
-        let are_of_types = numbers.is_some_and(|numbers| guess::are_of_types(&numbers));
+        let are_of_types = numbers.is_some_and(|numbers| guess::are_of_types(&numbers))
+            && guess::is_atomic_number(&first, column, &self.form);
         let told = guess::as_atomic_numbers(&self.names[column]);
         let place = 0..first.len();
         let doubt = LocatedFault::in_line(input.number + 1, &first, place, told);

@@ -1,10 +1,12 @@
 //! CIF: the loop `_atom_site` of a file of the Protein Data Bank (mmCIF), whose models and data blocks are frames, or of a
-//! crystal.
+//! crystal; the loop `_chem_comp_atom` of a chemical component.
 //!
 //! # Source
 //! Hall, Allen and Brown, "The crystallographic information file (CIF)", 1991; the dictionary PDBx/mmCIF.
 
 use std::sync::Arc;
+
+use memchr::memmem;
 
 use super::cell::ToldCell;
 use super::cif::{Items, Lexer};
@@ -16,8 +18,9 @@ use super::header::Header;
 use super::input::Input;
 use crate::text::LocatedFault;
 
-/// The category of atoms, of molecules and of crystals.
-const CATEGORIES: [&str; 2] = ["_atom_site.", "_atom_site_"];
+/// The category of atoms, of molecules, of crystals, and of chemical components.
+const CATEGORIES: [&str; 3] = ["_atom_site.", "_atom_site_", COMPONENT];
+const COMPONENT: &str = "_chem_comp_atom.";
 const MODEL: &str = "pdbx_PDB_model_num";
 
 /// The header of the next model, behind another one's where that is given; `None` behind the last one.
@@ -45,8 +48,8 @@ pub(crate) fn header(
             return match previous {
                 Some(_) => Ok(None),
                 None => {
-                    let expected =
-                        "a loop of `_atom_site.…`, or of `_atom_site_fract_x` and others";
+                    let expected = "a loop of `_atom_site.…`, of `_atom_site_fract_x` and others, or of \
+                                    `_chem_comp_atom.model_Cartn_x` and others";
                     Err(LocatedFault::at_end(number, expected).into())
                 }
             };
@@ -76,6 +79,25 @@ pub(crate) fn header(
         let mut names = vec![name(line, category)];
         add_names(input, (&mut lexer, &mut items), category, &mut names)?;
         let has = |wanted: &str| names.iter().any(|name| name.eq_ignore_ascii_case(wanted));
+        if *category == COMPONENT {
+            // Files of structures may list the atoms of their components, too.
+            let is_behind = previous.is_some_and(|previous| previous.names != names);
+            let is_ahead = memmem::find(input.head(), CATEGORIES[0].as_bytes()).is_some();
+            if is_behind || is_ahead || !(has("model_Cartn_x") || has("x")) {
+                continue;
+            }
+            return Ok(Some(Header {
+                close,
+                ..Header::new(
+                    names,
+                    Form {
+                        kind,
+                        ..Form::new(Division::QuotedWords)
+                    },
+                    (first.0, &first.1),
+                )
+            }));
+        }
         match (has("Cartn_x") && is_molecule, has("fract_x")) {
             (false, true) => {
                 let crystal = crystal::read(input, items, &names)?;

@@ -100,6 +100,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
             residue::of_atom(&line[field], residue)
         },
         check: |_, line| check(line),
+        has_points: true,
         ..Form::new(Division::Pqr)
     };
     const TEXTS: [&str; 6] = [

@@ -15,6 +15,9 @@ pub(crate) struct Remarks {
     others: u64,
     /// The first of these rows.
     first: Option<Place>,
+    /// The rows that are left out because their radius is 0, and the first of them.
+    points: u64,
+    first_point: Option<Place>,
     /// The guesses.
     guesses: Vec<LocatedFault>,
     /// The names of `radii` that a row had.
@@ -49,6 +52,13 @@ impl Remarks {
     pub(crate) fn add_unknown(&mut self, label: &[u8], place: impl FnOnce() -> Place) {
         self.count(label, 1);
         self.first.get_or_insert_with(place);
+    }
+
+    /// Takes in a row that is left out because its radius is 0.
+    #[cold]
+    pub(crate) fn add_point(&mut self, place: impl FnOnce() -> Place) {
+        self.points += 1;
+        self.first_point.get_or_insert_with(place);
     }
 
     fn count(&mut self, label: &[u8], rows: u64) {
@@ -89,6 +99,8 @@ impl Remarks {
         }
         self.others += others.others;
         self.first = self.first.take().or(others.first);
+        self.points += others.points;
+        self.first_point = self.first_point.take().or(others.first_point);
         for guess in others.guesses {
             self.add_guess(guess);
         }
@@ -99,8 +111,10 @@ impl Remarks {
 
     /// The same so many lines further down.
     pub(crate) fn lower(mut self, lines: u64) -> Self {
-        if let Some(Place::Text { line, .. }) = &mut self.first {
-            *line += lines;
+        for place in [&mut self.first, &mut self.first_point] {
+            if let Some(Place::Text { line, .. }) = place {
+                *line += lines;
+            }
         }
         self
     }
@@ -118,6 +132,16 @@ impl Remarks {
     /// The guesses, and, with `unknown`, the names that tell no element; each with its place.
     pub(crate) fn told(&self, unknown: bool) -> Vec<LocatedFault> {
         let mut told = self.guesses.clone();
+        if let Some(place) = &self.first_point {
+            told.push(LocatedFault {
+                place: place.clone(),
+                message: format!(
+                    "atoms with a radius of 0 are left out: {}, of which this is the first (`radius: 1` shows all \
+                     atoms, with one radius)",
+                    self.points,
+                ),
+            });
+        }
         if let Some(place) = self.first.as_ref().filter(|_| unknown) {
             let rows = |count: u64| match count {
                 1 => String::from("1 row"),

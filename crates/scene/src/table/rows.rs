@@ -62,6 +62,12 @@ pub(crate) enum Pushed {
     OfUnknown,
 }
 
+/// Says whether a row's radius comes from the table and is 0.
+#[inline(always)]
+pub(crate) fn is_point(plan: &Plan, numbers: &Numbers) -> bool {
+    matches!(plan.radius, RadiusSource::Column(..)) && numbers[Slot::Radius.index()] == 0.0
+}
+
 impl Rows {
     /// No rows of a table that is read by this plan.
     pub(crate) fn new(plan: &Plan) -> Self {

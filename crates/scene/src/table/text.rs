@@ -11,7 +11,7 @@ use super::input::{Input, without_return};
 use super::number::{is_missing, parse};
 use super::remarks::place_in_line;
 use super::request::Coloring;
-use super::rows::{Numbers, Pushed, Row, Rows};
+use super::rows::{Numbers, Pushed, Row, Rows, is_point};
 use super::time;
 use crate::parallel;
 use crate::text::{LocatedFault, Place};
@@ -341,6 +341,7 @@ pub(super) fn read_line(
                         value = Some(f64::NAN);
                     }
                     let refusal = match value {
+                        Some(0.0) if *slot == Slot::Radius && form.has_points => None,
                         Some(value) => plan.refusal(*slot, value),
                         None => Some("a number"),
                     };
@@ -362,6 +363,12 @@ pub(super) fn read_line(
     }
     if let Some((part, expected)) = (form.check)(form, line) {
         return refused(part, expected);
+    }
+    if form.has_points && is_point(plan, numbers) {
+        rows.read += 1;
+        rows.remarks
+            .add_point(|| place_in_line(number, line, 0..line.len()));
+        return Ok(());
     }
     let row = Row {
         numbers,

@@ -58,6 +58,12 @@ fn other_files_are_named() {
             .starts_with("expected a scene or a table of particles, found a molecule in CML: save"),
         "{message}"
     );
+    // All that a text has comes before its first byte of 0.
+    let mut archive = b"a.pdb".to_vec();
+    archive.resize(257, 0);
+    archive.extend(b"ustar  \0");
+    let message = refusal("a.pdb.bz2", archive);
+    assert!(message.contains("found an archive: unpack it"), "{message}");
     // What looks like a scene is one.
     for (name, text) in [
         ("a.csv", "(image: )"),

@@ -60,9 +60,33 @@ impl Slot {
     /// The name that a column for this has, or one of the others.
     pub(crate) fn names(self) -> &'static [&'static str] {
         match self {
-            Self::X => &["x", "xu", "xs", "xsu", "cartn_x", "fract_x"],
-            Self::Y => &["y", "yu", "ys", "ysu", "cartn_y", "fract_y"],
-            Self::Z => &["z", "zu", "zs", "zsu", "cartn_z", "fract_z"],
+            Self::X => &[
+                "x",
+                "xu",
+                "xs",
+                "xsu",
+                "cartn_x",
+                "model_cartn_x",
+                "fract_x",
+            ],
+            Self::Y => &[
+                "y",
+                "yu",
+                "ys",
+                "ysu",
+                "cartn_y",
+                "model_cartn_y",
+                "fract_y",
+            ],
+            Self::Z => &[
+                "z",
+                "zu",
+                "zs",
+                "zsu",
+                "cartn_z",
+                "model_cartn_z",
+                "fract_z",
+            ],
             Self::Radius => &["radius", "r", "particle radius", "particle_radius", "radii"],
             Self::Red => &["red", "r"],
             Self::Green => &["green", "g"],

@@ -146,3 +146,39 @@ fn mmcif_is_read_model_by_model() {
     let residue = "keep: [(\"residue\", Is(\"C A\"))]";
     assert_eq!(spheres(&scene("a.cif", &text, residue)), expected);
 }
+
+/// Dictionaries of components have coordinates of a model and, behind these, ideal ones.
+#[test]
+fn chemical_components_are_molecules() {
+    let component = "data_HOH\n_chem_comp.id HOH\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\n\
+        _chem_comp_atom.type_symbol\n_chem_comp_atom.model_Cartn_x\n_chem_comp_atom.model_Cartn_y\n\
+        _chem_comp_atom.model_Cartn_z\n_chem_comp_atom.pdbx_model_Cartn_x_ideal\nHOH O O -23.107 18.401 -21.626 -0.064\n\
+        HOH H1 H -22.157 18.401 -21.626 0.512\n#\n";
+    let water = scene("a.cif", component, "");
+    let expected = [
+        [-23.107, 18.401, -21.626, 1.52],
+        [-22.157, 18.401, -21.626, 1.1],
+    ];
+    assert_eq!(spheres(&water), expected);
+    assert_eq!(warnings(&water), "");
+    // The libraries of refinement programs name the coordinates so.
+    let names = component
+        .replace("pdbx_model_Cartn_x_ideal", "charge")
+        .replace("model_Cartn_", "");
+    assert_eq!(spheres(&scene("a.cif", names, "")), expected);
+    // A structure may have components before and behind it, and components need no coordinates.
+    let structure = "loop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\nC 1 2 3\n#\n";
+    for text in [
+        format!("{component}{structure}"),
+        format!("data_a\n{structure}{component}"),
+        format!("{}{structure}", component.replace("artn_x", "artn_u")),
+    ] {
+        let structure = scene("a.cif", &text, "");
+        assert_eq!(spheres(&structure), [[1.0, 2.0, 3.0, 1.7]]);
+        assert_eq!(warnings(&structure), "");
+    }
+    let nothing = component.replace("artn_x", "artn_u");
+    assert!(
+        refusal("a.cif", nothing, "").contains("or of `_chem_comp_atom.model_Cartn_x` and others")
+    );
+}

@@ -280,7 +280,7 @@ fn damaged_crystals_are_refused_with_their_lines() {
         ),
         (
             "data_a\n_cell_length_a 1\n".to_owned(),
-            "a.cif:3:1: expected a loop of `_atom_site.…`, or of `_atom_site_fract_x` and others",
+            "a.cif:3:1: expected a loop of `_atom_site.…`, of `_atom_site_fract_x` and others, or of",
         ),
     ] {
         let message = refusal("a.cif", &text, "radii: Covalent");

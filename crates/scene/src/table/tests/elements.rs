@@ -291,14 +291,30 @@ fn pqr_has_radii_of_its_own() {
     let broken = PQR.replace("  0.0962 1.9080", "");
     let expected = "a.pqr:3:55: expected a value for `charge`, found the end of the line";
     assert_eq!(refusal("a.pqr", broken, ""), expected);
-    let zero = PQR.replace(" 0.6000", " 0.0000");
-    let expected = "a.pqr:4:64: expected a radius greater than 0 for `radius`, found 0.0000";
-    assert_eq!(refusal("a.pqr", &zero, ""), expected);
-    let kept = "keep: [(\"radius\", Between(0.1, 9))]";
+}
+
+/// Force fields give hydrogen atoms that are bound to oxygen the radius 0.
+#[test]
+fn atoms_of_pqr_with_the_radius_0_are_left_out() {
+    let zero = PQR
+        .replace(" 0.6000", " 0.0000")
+        .replace("-0.5 1.5", "-0.5 0");
+    let scene = scene("a.pqr", &zero, "");
+    assert_eq!(radii(&scene), [1.824, 1.908]);
     assert_eq!(
-        radii(&self::scene("a.pqr", &zero, kept)),
-        [1.824, 1.908, 1.5]
+        warnings(&scene),
+        "a.pqr:4:1: atoms with a radius of 0 are left out: 2, of which this is the first (`radius: 1` shows all atoms, \
+         with one radius)"
     );
+    let kept = self::scene("a.pqr", &zero, "keep: [(\"radius\", Between(0.1, 9))]");
+    assert_eq!(
+        (radii(&kept), warnings(&kept)),
+        (vec![1.824, 1.908], String::new())
+    );
+    assert_eq!(radii(&self::scene("a.pqr", &zero, "radius: 1")), [1.0; 4]);
+    let negative = PQR.replace(" 0.6000", " -0.600");
+    let expected = "a.pqr:4:64: expected a radius greater than 0 for `radius`, found -0.600";
+    assert_eq!(refusal("a.pqr", &negative, ""), expected);
 }
 
 #[test]

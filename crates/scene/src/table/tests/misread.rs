@@ -315,6 +315,19 @@ fn atomic_numbers_that_count_are_said() {
     assert_eq!(told("species,x,y,z\n6,1,2,3\n8,4,5,6\n", ""), "");
 }
 
+/// PDB files of the format's first versions have the number of each line in columns 73 to 80.
+#[test]
+fn numbers_of_lines_in_old_pdb_files_are_not_elements() {
+    let row = |number: u8| {
+        format!(
+            "ATOM      {number}  CA  ALA     {number}       1.000   2.000   {number}.000  1.00 35.00      1GDR   {number}\n"
+        )
+    };
+    let scene = scene("a.pdb", format!("{}{}END\n", row(1), row(2)), "");
+    assert_eq!(spheres(&scene)[1], [1.0, 2.0, 2.0, 1.7]);
+    assert_eq!(warnings(&scene), "");
+}
+
 #[test]
 fn colors_that_look_like_bytes_are_said() {
     let told = |rows: &str| warnings(&scene("a.csv", format!("x,y,z,radius,r,g,b\n{rows}\n"), ""));
