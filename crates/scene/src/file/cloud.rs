@@ -99,9 +99,10 @@ pub(crate) struct Others {
     pub(crate) color: Placed<Color>,
 }
 
-/// The axis of a table that points up.
+/// The axis of a table, or of what a turntable turns, that points up.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
 pub(crate) enum Up {
+    X,
     /// As in the scene.
     #[default]
     Y,

@@ -114,6 +114,8 @@ fn a_turntable_has_all_contours_inside_in_every_frame() {
         ", swing: 35",
         ", axis: (0, 0, 1)",
         ", axis: (1, -2, 0.5), swing: 20",
+        ", up: X, swing: 35",
+        ", up: Z",
     ] {
         turntables_have_all_contours_inside(turning);
     }
@@ -134,6 +136,37 @@ fn turntables_have_all_contours_inside(turning: &str) {
         assert!(largest >= 0.98, "{lens} {camera}{turning}: {largest}");
         let [first, last] = [1, 91].map(|frame| scene.view(frame).unwrap().camera);
         assert_eq!(first, last);
+    }
+}
+
+#[test]
+fn what_points_up_on_a_turntable_looks_as_in_a_table_with_this_axis_up() {
+    let places = [DVec3::new(1.0, 2.0, 3.0), DVec3::new(-4.0, 0.5, 2.0)];
+    let scene = |places: [DVec3; 2], up: &str| {
+        let [one, two] = places.map(|DVec3 { x, y, z }| format!("({x}, {y}, {z})"));
+        let text = format!(
+            "(image: (width: 90, height: 60), lens: Fov(40), camera: Frame(elevation: 20, azimuth: 35),
+              spheres: [(center: {one}, radius: 1), (center: {two}, radius: 0.5)],
+              animation: Turntable(frames: 9{up}))"
+        );
+        Scene::parse(&text, Path::new("a.ron")).unwrap()
+    };
+    // The quarter turns of clouds with `up: X` and `up: Z`.
+    let x_to_y = places.map(|DVec3 { x, y, z }| DVec3::new(-y, x, z));
+    let z_to_y = places.map(|DVec3 { x, y, z }| DVec3::new(x, z, -y));
+    for (up, turned) in [
+        (", up: X", x_to_y),
+        (", up: Y", places),
+        (", up: Z", z_to_y),
+    ] {
+        let (upright, expected) = (scene(places, up), scene(turned, ""));
+        for frame in 1..=9 {
+            let [view, expected] = [&upright, &expected].map(|scene| scene.view(frame).unwrap());
+            for (place, turned) in places.into_iter().zip(turned) {
+                let apart = view.project(place).unwrap() - expected.project(turned).unwrap();
+                assert!(apart.length() < 1e-9, "{up}, frame {frame}: {apart}");
+            }
+        }
     }
 }
 
