@@ -15,6 +15,8 @@ use crate::values::{
 #[serde(deny_unknown_fields)]
 pub(crate) struct Cloud {
     pub(crate) file: Placed<FileName>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) topology: Option<Placed<FileName>>,
     #[serde(default)]
     pub(crate) frames: Placed<TakenFrames>,
     #[serde(default, deserialize_with = "present")]

@@ -1,6 +1,8 @@
 //! Doubts and guesses while a table was read.
 
 use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
 
 use super::columns::Plan;
 use super::element;
@@ -19,6 +21,8 @@ pub(crate) struct Remarks {
     guesses: Vec<LocatedFault>,
     /// The names of `radii` that a row had.
     used_radii: Vec<bool>,
+    /// The file in which all of this is, if it is not the table.
+    pub(crate) file: Option<Arc<Path>>,
 }
 
 /// The most names that are listed.
@@ -89,6 +93,7 @@ impl Remarks {
         }
         self.others += others.others;
         self.first = self.first.take().or(others.first);
+        self.file = self.file.take().or(others.file);
         for guess in others.guesses {
             self.add_guess(guess);
         }

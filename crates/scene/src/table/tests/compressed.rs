@@ -239,7 +239,8 @@ fn tables_that_are_compressed_twice_are_called_so() {
 #[test]
 fn archives_are_not_compressed_once_more() {
     let message = refusal("a.npz.gz", gzip(&npz(&[])), "");
-    let expected = "a.npz.gz: expected an uncompressed NPZ archive, found one in a gzip file: decompress it once";
+    let expected =
+        "a.npz.gz: expected an uncompressed NPZ file, found one in a gzip file: decompress it once";
     assert_eq!(message, expected);
 }
 

@@ -50,10 +50,10 @@ fn tables_of_text_have_many_forms() {
         "a.txt:1:1: expected the number of a column, from 1 to 5, found 9"
     );
     assert_eq!(
-        refusal("a.xtc", b"\0\0\x07\xcb\0\0", ""),
+        refusal("a.trr", b"\0\0\x07\xc9\0\0", ""),
         "scene.ron:2:17: expected a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.npy`, `.npz`, `.ply`, `.xyz`, `.extxyz`, \
-         `.dump`, `.lammpstrj`, `.gro`, `.gsd`, `.pdb`, `.ent`, `.pdbqt`, `.pqr`, `.cif`, `.mmcif`, `.pdbx`, `.mol2`, `.sdf`, `.sd`, `.mol`, `.mdl`, `.data`, `.lmp`, `.vtk`, `.poscar`, `.contcar`, `.xdatcar`, `.vasp`, `.vtu` or `.vtp`), found \"a.xtc\", \
-         a trajectory of GROMACS (XTC): save it as extended XYZ, PDB or a LAMMPS dump, with MDAnalysis, MDTraj or ASE"
+         `.dump`, `.lammpstrj`, `.gro`, `.gsd`, `.pdb`, `.ent`, `.pdbqt`, `.pqr`, `.cif`, `.mmcif`, `.pdbx`, `.mol2`, `.sdf`, `.sd`, `.mol`, `.mdl`, `.data`, `.lmp`, `.vtk`, `.poscar`, `.contcar`, `.xdatcar`, `.vasp`, `.vtu`, `.vtp`, `.pvd`, `.xtc` or `.dcd`), found \"a.trr\", \
+         a trajectory of GROMACS (TRR): save it as extended XYZ, PDB or a LAMMPS dump, with MDAnalysis, MDTraj or ASE"
     );
 }
 
