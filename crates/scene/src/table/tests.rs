@@ -37,6 +37,7 @@ mod operations;
 mod ply;
 mod poscars;
 mod rows;
+mod topologies;
 mod trajectories;
 mod vtk;
 mod vtk_xml;

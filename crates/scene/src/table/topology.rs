@@ -59,70 +59,12 @@ impl Topology {
         request: &Request,
         angstrom: f64,
     ) -> Result<(Self, OtherFile), TableError> {
-        let names = names(named)?;
-        let axis = |column: &ColumnRef| axis_of(&names, column);
-        let (of_positions, keep): (Vec<_>, Vec<_>) = request
-            .keep
-            .iter()
-            .cloned()
-            .partition(|filter| axis(&filter.column).is_some());
-        let filters = of_positions
-            .into_iter()
-            .filter_map(|filter| Some((axis(&filter.column)?, filter.test)));
-        let value = match &request.value {
-            Some(Value::Column(column)) => axis(column),
-            Some(Value::Length(columns)) if columns.iter().any(|column| axis(column).is_some()) => {
-                let message = "expected columns of the topology in `Length`, found the positions of a trajectory";
-                return Err(TableError::InTopology(message.to_owned()));
-            }
-            _ => None,
-        };
-        if value.is_some() && !matches!(request.coloring, None | Some(Coloring::Value)) {
-            let message =
-                "expected `color: Value` for the positions of a trajectory, found another coloring";
-            return Err(TableError::InTopology(message.to_owned()));
-        }
-        if request.columns.radius.as_ref().and_then(axis).is_some() {
-            let message = "expected a column of the topology for `radius`, found the positions of a trajectory";
-            return Err(TableError::InTopology(message.to_owned()));
-        }
-        let of_atoms = Request {
-            columns: Columns {
-                position: nowhere(),
-                ..request.columns.clone()
-            },
-            coloring: match value {
-                Some(_) => Some(Coloring::Material),
-                None => request.coloring,
-            },
-            value: request.value.clone().filter(|_| value.is_none()),
-            keep,
-            periodic: Periodic::default(),
-            has_places: true,
-            ..request.clone()
-        };
-        let mut position = [0, 1, 2].map(Source::Axis);
-        for (source, chosen) in position.iter_mut().zip(&request.columns.position) {
-            match chosen {
-                None => {}
-                Some(ColumnRef::Constant(number)) => *source = Source::Constant(*number),
-                Some(column) => match axis(column) {
-                    Some(axis) => *source = Source::Axis(axis),
-                    None => {
-                        let message = "expected `x`, `y`, `z` or constants for the positions of a trajectory, found another column";
-                        return Err(TableError::InTopology(message.to_owned()));
-                    }
-                },
-            }
-        }
+        let division = Division::of(request, &names(named)?)?;
         let mut frames = Frames::open(&named.path, &|_, _| {})?;
-        let rows = frames.read(&of_atoms)?;
+        let rows = frames.read(&division.of_atoms)?;
         let mut rows = rows.ok_or_else(|| damaged("expected a frame, found none".into()))?;
-        if rows.places.len() != rows.spheres.len()
-            || rows
-                .kept
-                .is_some_and(|kept| kept != rows.spheres.len() as u64)
-        {
+        let count = rows.spheres.len();
+        if rows.places.len() != count || rows.kept.is_some_and(|kept| kept != count as u64) {
             let message = "expected a row for each atom, found the atoms of a crystal, which follow from its symmetry";
             return Err(damaged(message.to_owned()));
         }
@@ -131,9 +73,8 @@ impl Topology {
         let factor = angstrom / frames.angstrom();
         if !has_own_unit && factor != 1.0 {
             for sphere in &mut rows.spheres {
-                *sphere = Sphere::new(DVec3::ZERO, sphere.radius() * factor).map_err(|_| {
-                    TableError::InTopology("expected finite radii, found others".into())
-                })?;
+                let scaled = Sphere::new(DVec3::ZERO, sphere.radius() * factor);
+                *sphere = scaled.map_err(|_| refused("expected finite radii, found others"))?;
             }
         }
         rows.remarks.file = Some(Arc::from(&*named.path));
@@ -145,9 +86,9 @@ impl Topology {
         };
         let topology = Self {
             name: named.name.clone(),
-            position,
-            filters: filters.collect(),
-            value: value.map(|axis| (axis, AXES[axis])),
+            position: division.position,
+            filters: division.filters,
+            value: division.value.map(|axis| (axis, AXES[axis])),
             rows,
         };
         Ok((topology, file))
@@ -204,6 +145,81 @@ impl Topology {
         }
         Ok(rows)
     }
+}
+
+/// A request for a trajectory, divided into what concerns its positions and the rest.
+struct Division {
+    /// The request for the topology.
+    of_atoms: Request,
+    position: [Source; 3],
+    filters: Vec<(usize, Test)>,
+    value: Option<usize>,
+}
+
+impl Division {
+    /// Divides a request for a trajectory whose topology has columns of these names.
+    fn of(request: &Request, names: &Arc<Vec<String>>) -> Result<Self, TableError> {
+        let axis = |column: &ColumnRef| axis_of(names, column);
+        let value = match &request.value {
+            Some(Value::Column(column)) => axis(column),
+            Some(Value::Length(columns)) if columns.iter().any(|column| axis(column).is_some()) => {
+                return Err(refused(
+                    "expected columns of the topology in `Length`, found the positions of a trajectory",
+                ));
+            }
+            _ => None,
+        };
+        if value.is_some() && !matches!(request.coloring, None | Some(Coloring::Value)) {
+            return Err(refused(
+                "expected `color: Value` for the positions of a trajectory, found another coloring",
+            ));
+        }
+        if request.columns.radius.as_ref().and_then(axis).is_some() {
+            return Err(refused(
+                "expected a column of the topology for `radius`, found the positions of a trajectory",
+            ));
+        }
+        let mut position = [0, 1, 2].map(Source::Axis);
+        for (source, chosen) in position.iter_mut().zip(&request.columns.position) {
+            *source = match chosen {
+                None => continue,
+                Some(ColumnRef::Constant(number)) => Source::Constant(*number),
+                Some(column) => Source::Axis(axis(column).ok_or_else(|| {
+                    refused(
+                        "expected `x`, `y`, `z` or constants for the positions of a trajectory, found another column",
+                    )
+                })?),
+            };
+        }
+        let mut of_atoms = Request {
+            value: request.value.clone().filter(|_| value.is_none()),
+            keep: Vec::new(),
+            periodic: Periodic::default(),
+            has_places: true,
+            ..request.clone()
+        };
+        of_atoms.columns.position = nowhere();
+        if value.is_some() {
+            of_atoms.coloring = Some(Coloring::Material);
+        }
+        let mut filters = Vec::new();
+        for filter in &request.keep {
+            match axis(&filter.column) {
+                Some(axis) => filters.push((axis, filter.test.clone())),
+                None => of_atoms.keep.push(filter.clone()),
+            }
+        }
+        Ok(Self {
+            of_atoms,
+            position,
+            filters,
+            value,
+        })
+    }
+}
+
+fn refused(message: &str) -> TableError {
+    TableError::InTopology(message.to_owned())
 }
 
 /// The names of the columns of a table.
