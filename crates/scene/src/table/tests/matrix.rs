@@ -158,7 +158,12 @@ fn one_frame_is_a_step() {
 /// A bit of every byte of every checksum, of every format, however it is compressed.
 #[test]
 fn every_checksum_is_compared() {
+    let mut last = None;
     for (ending, format) in ENDINGS {
+        if last.replace(format) == Some(format) {
+            // Another ending of the same format.
+            continue;
+        }
         let (bytes, _) = table(ending);
         if !format.may_be_compressed() {
             // They are not compressed. An NPZ has checksums of its own, which `checksums_of_archives_are_compared` looks at.
