@@ -8,9 +8,9 @@ use glam::{DMat3, DVec3};
 
 use super::cell::{Cell, ToldCell};
 use super::error::TableError;
+use super::frame::{Frame, damaged, take};
 use super::input::Input;
 use super::kind::Order;
-use super::trajectory::{Frame, damaged, take};
 use crate::text::LocatedFault;
 
 /// The bytes of the first record, and the places of whole numbers in it, behind the mark `CORD`.

@@ -1,5 +1,6 @@
 //! A table that is open, whose frames are read one after another.
 
+mod facts;
 mod places;
 
 use std::fmt;
@@ -13,6 +14,7 @@ use super::format::Format;
 use super::header::Header;
 use super::input::Input;
 use super::other_file::{OtherFile, OtherName};
+use super::other_table::{OtherTable, ReadOther};
 use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
@@ -169,7 +171,7 @@ impl<'watch> Frames<'watch> {
             return Err(TableError::NoCell(field));
         }
         if let Some(trajectory) = &mut self.trajectory {
-            let rows = trajectory.read(input, &mut self.others, request)?;
+            let rows = trajectory.read(input, (&mut self.others, read_other), request)?;
             return match rows {
                 Some(rows) => self.finished(rows, request).map(Some),
                 None => Ok(None),
@@ -197,7 +199,8 @@ impl<'watch> Frames<'watch> {
             }
             Format::Pvd => {
                 self.open_collection()?;
-                let (input, others) = (&mut self.input, &mut self.others);
+                let (input, others) =
+                    (&mut self.input, (&mut self.others, read_other as ReadOther));
                 let rows = match &self.collection {
                     Some(collection) => collection.read(input, others, request)?,
                     None => None,
@@ -232,64 +235,9 @@ impl<'watch> Frames<'watch> {
         Ok(rows)
     }
 
-    /// True of formats of simulations, in whose tables z usually points up.
-    pub(crate) fn has_z_up(&self) -> bool {
-        matches!(
-            self.format,
-            Format::Lammps
-                | Format::LammpsData
-                | Format::Gro
-                | Format::Gsd
-                | Format::Xtc
-                | Format::Dcd
-        )
-    }
-
-    /// True of a table that lists the atoms of a crystal's cell, after a frame was read.
-    pub(crate) fn is_crystal(&self) -> bool {
-        let header = self.previous.as_ref();
-        self.format == Format::Vasp || header.is_some_and(|header| header.crystal.is_some())
-    }
-
-    /// True of a table that has nothing but the positions of atoms.
-    pub(crate) fn is_trajectory(&self) -> bool {
-        self.trajectory.is_some()
-    }
-
-    /// The format.
-    pub(crate) fn kind(&self) -> Format {
-        self.format
-    }
-
     /// The files that a collection lists, once something of it was read.
     pub(crate) fn listed_files(&self) -> impl Iterator<Item = PathBuf> {
         self.collection.iter().flat_map(Collection::files)
-    }
-
-    /// The name of the format.
-    pub(crate) fn format(&self) -> &'static str {
-        self.format.name()
-    }
-
-    /// True of lines that are stored as they are.
-    pub(crate) fn is_plain_text(&self) -> bool {
-        let is_binary = matches!(
-            self.format,
-            Format::Npy
-                | Format::Npz
-                | Format::Ply
-                | Format::Pvd
-                | Format::Vtk
-                | Format::VtkXml
-                | Format::Gsd
-        );
-        !is_binary && self.trajectory.is_none() && self.input.can_seek()
-    }
-
-    /// The length of an ångström, in the unit of the frame that was read.
-    pub(crate) fn angstrom(&self) -> f64 {
-        let header = self.previous.as_ref();
-        header.map_or(1.0, |header| header.angstrom)
     }
 
     /// Takes the files that were read besides this one.
@@ -396,4 +344,27 @@ impl<'watch> Frames<'watch> {
             | Format::Gsd => Ok(None),
         }
     }
+}
+
+/// Reads the first frame of another table, which must not be a list of others: it could list itself.
+fn read_other(named: &OtherName, request: &Request) -> Result<OtherTable, TableError> {
+    let mut frames = Frames::open(&named.path, &|_, _| {})?;
+    let format = frames.format;
+    if format == Format::Pvd {
+        let message = "expected a table in a single file, found PVD, which lists files";
+        return Err(LocatedFault::of_file(message).into());
+    }
+    let rows = frames.read(request)?;
+    let rows = rows.ok_or_else(|| LocatedFault::of_file("expected a frame, found none"))?;
+    frames.finish()?;
+    Ok(OtherTable {
+        rows,
+        format,
+        angstrom: frames.angstrom(),
+        file: OtherFile {
+            path: named.path.clone(),
+            state: frames.state(),
+            doubts: frames.take_doubts(),
+        },
+    })
 }

@@ -7,12 +7,12 @@ use marbles_core::Sphere;
 
 use super::columns::{Test, axis_of};
 use super::error::TableError;
-use super::frames::Frames;
+use super::frame::damaged;
 use super::other_file::{OtherFile, OtherName};
+use super::other_table::{OtherTable, ReadOther};
 use super::paint::Paint;
 use super::request::{Coloring, ColumnRef, Columns, Missing, Periodic, Request, Value};
 use super::rows::Rows;
-use super::trajectory::damaged;
 use crate::text::quoted;
 
 /// The atoms of a trajectory.
@@ -45,9 +45,10 @@ impl Topology {
         named: &OtherName,
         request: &Request,
         angstrom: f64,
+        read_other: ReadOther,
     ) -> Result<(Self, OtherFile), TableError> {
         let in_table = |error| TableError::InOther(named.clone(), Box::new(error));
-        let own = Self::try_read(named, request, angstrom);
+        let own = Self::try_read(named, request, angstrom, read_other);
         own.map_err(|error| match error {
             TableError::InTopology(_) => error,
             error => in_table(error),
@@ -58,11 +59,11 @@ impl Topology {
         named: &OtherName,
         request: &Request,
         angstrom: f64,
+        read_other: ReadOther,
     ) -> Result<(Self, OtherFile), TableError> {
-        let division = Division::of(request, &names(named)?)?;
-        let mut frames = Frames::open(&named.path, &|_, _| {})?;
-        let rows = frames.read(&division.of_atoms)?;
-        let mut rows = rows.ok_or_else(|| damaged("expected a frame, found none".into()))?;
+        let division = Division::of(request, &names(named, read_other)?)?;
+        let table = read_other(named, &division.of_atoms)?;
+        let OtherTable { mut rows, file, .. } = table;
         let count = rows.spheres.len();
         if rows.places.len() != count || rows.kept.is_some_and(|kept| kept != count as u64) {
             let message = "expected a row for each atom, found the atoms of a crystal, which follow from its symmetry";
@@ -70,7 +71,7 @@ impl Topology {
         }
         let has_own_unit = request.radius.is_some()
             || matches!(request.columns.radius, Some(ColumnRef::Constant(_)));
-        let factor = angstrom / frames.angstrom();
+        let factor = angstrom / table.angstrom;
         if !has_own_unit && factor != 1.0 {
             for sphere in &mut rows.spheres {
                 let scaled = Sphere::new(DVec3::ZERO, sphere.radius() * factor);
@@ -78,12 +79,6 @@ impl Topology {
             }
         }
         rows.remarks.file = Some(Arc::from(&*named.path));
-        frames.finish()?;
-        let file = OtherFile {
-            path: named.path.clone(),
-            state: frames.state(),
-            doubts: frames.take_doubts(),
-        };
         let topology = Self {
             name: named.name.clone(),
             position: division.position,
@@ -223,7 +218,7 @@ fn refused(message: &str) -> TableError {
 }
 
 /// The names of the columns of a table.
-fn names(named: &OtherName) -> Result<Arc<Vec<String>>, TableError> {
+fn names(named: &OtherName, read_other: ReadOther) -> Result<Arc<Vec<String>>, TableError> {
     let request = Request {
         radius: Some(1.0),
         coloring: Some(Coloring::Material),
@@ -234,9 +229,7 @@ fn names(named: &OtherName) -> Result<Arc<Vec<String>>, TableError> {
         missing: Missing::Hide,
         ..Request::default()
     };
-    let mut frames = Frames::open(&named.path, &|_, _| {})?;
-    let rows = frames.read(&request)?;
-    Ok(rows.map(|rows| rows.columns).unwrap_or_default())
+    Ok(read_other(named, &request)?.rows.columns)
 }
 
 /// Columns of positions in which nothing is read.

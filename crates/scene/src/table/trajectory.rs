@@ -1,14 +1,14 @@
 //! Trajectories: the positions of the same atoms, frame after frame. Another table may tell the rest of the atoms.
 
 use std::borrow::Cow;
-use std::io::Read;
 
 use super::array::Column;
-use super::cell::ToldCell;
 use super::error::TableError;
+use super::frame::Frame;
 use super::input::Input;
 use super::kind::{Kind, Number};
 use super::other_file::{OtherFile, OtherName};
+use super::other_table::ReadOther;
 use super::request::Request;
 use super::rows::Rows;
 use super::topology::Topology;
@@ -32,12 +32,6 @@ pub(crate) enum TrajectoryKind {
     Dcd(Option<dcd::File>),
 }
 
-/// The positions of all atoms at a moment.
-pub(crate) struct Frame {
-    pub(super) positions: Vec<[f32; 3]>,
-    pub(super) cell: Option<ToldCell>,
-}
-
 impl Trajectory {
     pub(crate) fn new(kind: TrajectoryKind) -> Self {
         Self {
@@ -56,7 +50,7 @@ impl Trajectory {
     pub(crate) fn read(
         &mut self,
         input: &mut Input<'_>,
-        others: &mut Vec<OtherFile>,
+        (others, read_other): (&mut Vec<OtherFile>, ReadOther),
         request: &Request,
     ) -> Result<Option<Rows>, TableError> {
         if request.periodic.unwraps {
@@ -77,7 +71,7 @@ impl Trajectory {
                     Some(atoms) => atoms,
                     None => {
                         let (atoms, file) =
-                            Topology::read(topology, request, self.kind.angstrom())?;
+                            Topology::read(topology, request, self.kind.angstrom(), read_other)?;
                         others.push(file);
                         self.atoms.insert(atoms)
                     }
@@ -149,24 +143,4 @@ impl Frame {
         };
         binary::read_columns(&[0, 1, 2].map(column), self.positions.len() as u64, &plan)
     }
-}
-
-/// So many bytes that come next.
-pub(super) fn take(input: &mut Input<'_>, count: u64) -> Result<Vec<u8>, TableError> {
-    let start = input.position;
-    let left = input.size().unwrap_or(0).saturating_sub(start);
-    let mut bytes = Vec::new();
-    if count <= left {
-        input.by_ref().take(count).read_to_end(&mut bytes)?;
-    }
-    match bytes.len() as u64 == count {
-        true => Ok(bytes),
-        false => Err(damaged(format!(
-            "expected {count} bytes at byte {start}, found {left}: the file is cut or damaged"
-        ))),
-    }
-}
-
-pub(super) fn damaged(message: String) -> TableError {
-    LocatedFault::of_file(message).into()
 }

@@ -128,7 +128,7 @@ fn collections_of_other_things_are_refused() {
         (collection(&[("0", "c.vtu")]), "c.vtu:1:"),
         (
             list("file=\"d.pvd\""),
-            "d.pvd: expected a VTU or VTP file in a collection, found PVD",
+            "d.pvd: expected a table in a single file, found PVD, which lists files",
         ),
         (
             list("file=\"e.csv\""),

@@ -7,13 +7,12 @@ use std::path::{Path, PathBuf};
 
 use super::super::error::TableError;
 use super::super::format::Format;
-use super::super::frames::Frames;
 use super::super::input::Input;
 use super::super::other_file::{OtherFile, OtherName};
+use super::super::other_table::{OtherTable, ReadOther};
 use super::super::request::Request;
 use super::super::rows::Rows;
 use super::bytes::Bytes;
-use super::has_type;
 use super::tags::{Tag, TagPlace, Tags};
 use crate::text::{LocatedFault, quoted};
 
@@ -33,11 +32,6 @@ pub(crate) struct Collection {
 struct Part {
     time: f64,
     file: OtherName,
-}
-
-/// Says whether a file begins so.
-pub(crate) fn is_collection(head: &[u8]) -> bool {
-    has_type(head, &[TYPE.as_bytes()])
 }
 
 impl Collection {
@@ -86,7 +80,7 @@ impl Collection {
     pub(crate) fn read(
         &self,
         input: &mut Input<'_>,
-        others: &mut Vec<OtherFile>,
+        (others, read_other): (&mut Vec<OtherFile>, ReadOther),
         request: &Request,
     ) -> Result<Option<Rows>, TableError> {
         let frame = input.number as usize;
@@ -96,7 +90,7 @@ impl Collection {
         let end = self.starts.get(frame + 1).copied();
         let mut all: Option<Rows> = None;
         for part in &self.parts[start..end.unwrap_or(self.parts.len())] {
-            let (rows, other) = part.read(request)?;
+            let (rows, other) = part.read(request, read_other)?;
             others.push(other);
             all = Some(match all {
                 None => rows,
@@ -133,24 +127,20 @@ impl Part {
     }
 
     /// Reads the points of the file.
-    fn read(&self, request: &Request) -> Result<(Rows, OtherFile), TableError> {
-        let refused = |error| self.file.refused(error);
-        let mut frames = Frames::open(&self.file.path, &|_, _| {}).map_err(refused)?;
-        if !matches!(frames.kind(), Format::VtkXml | Format::Vtk) {
-            let found = frames.kind().name();
+    fn read(
+        &self,
+        request: &Request,
+        read_other: ReadOther,
+    ) -> Result<(Rows, OtherFile), TableError> {
+        let table = read_other(&self.file, request).map_err(|error| self.file.refused(error))?;
+        let OtherTable { mut rows, file, .. } = table;
+        if !matches!(table.format, Format::VtkXml | Format::Vtk) {
+            let found = table.format.name();
             let message = format!("expected a VTU or VTP file in a collection, found {found}");
-            return Err(refused(LocatedFault::of_file(message).into()));
+            return Err(self.file.refused(LocatedFault::of_file(message).into()));
         }
-        let rows = frames.read(request).map_err(refused)?;
-        let mut rows = rows.ok_or_else(|| refused(TableError::Changed))?;
         rows.remarks.file = Some(self.file.path.as_path().into());
-        frames.finish().map_err(refused)?;
-        let other = OtherFile {
-            path: self.file.path.clone(),
-            state: frames.state(),
-            doubts: frames.take_doubts(),
-        };
-        Ok((rows, other))
+        Ok((rows, file))
     }
 }
 

@@ -15,7 +15,7 @@ mod tags;
 use std::borrow::Cow;
 
 use self::bytes::Bytes;
-pub(crate) use self::collection::{Collection, is_collection};
+pub(crate) use self::collection::Collection;
 use self::document::{Array, Document, Piece};
 use self::numbers::Numbers;
 use super::array::{Column, Part};
@@ -39,6 +39,11 @@ const MOST_POINTS_FOR_A_BYTE: u64 = 4;
 /// Says whether a file that begins so holds points.
 pub(crate) fn is_like(head: &[u8]) -> bool {
     has_type(head, &[b"UnstructuredGrid", b"PolyData"])
+}
+
+/// Says whether a file that begins so is a collection.
+pub(crate) fn is_collection(head: &[u8]) -> bool {
+    has_type(head, &[b"Collection"])
 }
 
 /// Says whether a file that begins so has a type among these.

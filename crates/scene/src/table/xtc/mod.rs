@@ -11,8 +11,8 @@ use glam::{DMat3, DVec3};
 use self::packed::Range;
 use super::cell::{Cell, ToldCell};
 use super::error::TableError;
+use super::frame::{Frame, damaged, take};
 use super::input::Input;
-use super::trajectory::{Frame, damaged, take};
 use crate::text::LocatedFault;
 
 /// The numbers with which a frame begins, before GROMACS 2023 and since then.
