@@ -63,9 +63,24 @@ fn render(scene: &Scene) {
     }
 }
 
+/// The files that seeds name, and a topology of their atoms.
+const OTHERS: [(&str, &[u8]); 2] = [
+    ("atoms.gro", include_bytes!("../../seeds/tables/water.gro")),
+    (
+        "corners.vtu",
+        include_bytes!("../../seeds/tables/corners.vtu"),
+    ),
+];
+
 /// Reads a table through a scene with various settings.
 pub(super) fn read_table(input: &Input<'_>) -> bool {
     input.write();
+    for (name, bytes) in OTHERS {
+        let path = input.folder.join(name);
+        if !path.exists() {
+            std::fs::write(path, bytes).expect("a file can be written");
+        }
+    }
     let mut numbers = Numbers(input.numbers);
     let radius = numbers.either(&["", "", ", radius: 0.5"]);
     let more = numbers.either(&[
@@ -84,6 +99,8 @@ pub(super) fn read_table(input: &Input<'_>) -> bool {
         ", columns: (radius: Power(column: \"q\", exponent: 0.5, offset: 1))",
         ", time: \"id\"",
         ", skip_lines: 1",
+        ", topology: \"atoms.gro\", frames: All",
+        ", topology: \"atoms.gro\", keep: [(\"name\", Is(\"OW\")), (\"x\", Between(0, 30))], value: \"z\"",
     ]);
     let text = format!(
         "(image: (width: 4, height: 4), lens: Fov(40), camera: Frame(), ambient: 1, \

@@ -30,6 +30,8 @@ pub(super) struct Contents {
     pub(super) has_z_up: bool,
     /// The axes are right-handed.
     pub(super) is_right_handed: bool,
+    /// The table has nothing but the positions of atoms.
+    pub(super) is_trajectory: bool,
     /// The table lists the atoms of a crystal's cell.
     pub(super) is_crystal: bool,
     /// The table has a cell that can be repeated.
@@ -99,6 +101,7 @@ impl Contents {
             is_colored,
             has_z_up: facts.has_z_up,
             is_right_handed,
+            is_trajectory: facts.is_trajectory,
             is_crystal,
             has_cell,
             has_more: facts.has_more,

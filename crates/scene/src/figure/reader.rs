@@ -22,6 +22,8 @@ pub(super) struct Facts {
     pub(super) has_z_up: bool,
     /// Frames follow the first.
     pub(super) has_more: bool,
+    /// The table has nothing but the positions of atoms.
+    pub(super) is_trajectory: bool,
     /// The table lists the atoms of a crystal's cell.
     pub(super) is_crystal: bool,
 }
@@ -61,6 +63,7 @@ pub(super) fn first(path: &Path, request: &Request) -> Option<(Facts, Rows)> {
     let rows = frames.read(request).ok()??;
     let facts = Facts {
         has_z_up: frames.has_z_up(),
+        is_trajectory: frames.is_trajectory(),
         is_crystal: frames.is_crystal(),
         has_more: frames.has_more(),
     };

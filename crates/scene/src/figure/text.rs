@@ -88,6 +88,11 @@ pub(super) fn scene(
 fn cloud(contents: &Contents, name: &str) -> String {
     let mut text = format!("        file: {name:?},\n        material: \"particles\",\n");
     let mut line = |field: &str| text += &format!("        {field}\n");
+    if contents.is_trajectory {
+        line(
+            "// topology: \"atoms.gro\", // a table of the same atoms, which tells their elements",
+        );
+    }
     if let Some(columns) = contents.columns {
         line(&format!(
             "columns: ({columns}), // the names of the columns do not tell them"

@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 use serde::Deserialize;
 
+use super::Up;
 use crate::text::{Placed, present};
 use crate::values::{
     Axis, Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Mu,
@@ -105,6 +106,8 @@ pub(crate) enum Animation {
         what: Placed<Turned>,
         #[serde(default, deserialize_with = "present")]
         axis: Option<Placed<Axis>>,
+        #[serde(default, deserialize_with = "present")]
+        up: Option<Placed<Up>>,
         #[serde(default, deserialize_with = "present")]
         swing: Option<Placed<Swing>>,
     },

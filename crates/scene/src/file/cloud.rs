@@ -15,6 +15,8 @@ use crate::values::{
 #[serde(deny_unknown_fields)]
 pub(crate) struct Cloud {
     pub(crate) file: Placed<FileName>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) topology: Option<Placed<FileName>>,
     #[serde(default)]
     pub(crate) frames: Placed<TakenFrames>,
     #[serde(default, deserialize_with = "present")]
@@ -99,9 +101,10 @@ pub(crate) struct Others {
     pub(crate) color: Placed<Color>,
 }
 
-/// The axis of a table that points up.
+/// The axis of a table, or of what a turntable turns, that points up.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
 pub(crate) enum Up {
+    X,
     /// As in the scene.
     #[default]
     Y,

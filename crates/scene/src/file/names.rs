@@ -53,7 +53,7 @@ structures! {
     Keep: "condition", "a condition `(column, Is(…))`, with `Is`, `Between` or `Every`";
     Test: "condition", "a condition: `Is(…)`, `Between(…, …)` or `Every(…)`";
     TakenFrames: "choice of frames", "a choice of frames: `First` or `All`";
-    Up: "axis", "an axis that points up: `Y` or `Z`";
+    Up: "axis", "an axis that points up: `X`, `Y` or `Z`";
     End: "end", "an end: `Hold`, `Loop` or `Hide`";
     FrameOver: "framed part", "the framed part: `Series` or `Step`";
     Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";

@@ -10,7 +10,7 @@ use super::checks;
 use super::curve::Curve;
 use super::error::FrameError;
 use super::framing::{Framed, Framing, Picture, Turning, axes_of_orbit};
-use super::turntable::Turntable;
+use super::turntable::{Turntable, turned_about};
 use crate::file::{Animation, File, Key, Turned};
 use crate::text::{Placed, optional, refuse};
 use crate::values::{FramesPerSecond, MOST_FRAMES};
@@ -75,6 +75,10 @@ impl CameraMotion {
             None => Turning::Freely,
         };
         let axes = axes_of_orbit(angles.map(|curve| curve.at(0.0)));
+        let axes = match &self.turntable {
+            Some(turntable) => turntable.stand(axes),
+            None => axes,
+        };
         let framing = Framing::of(framed, picture, turning, axes)?;
         self.channels.frame(&framing);
         Some(framing.scale)
@@ -142,18 +146,15 @@ impl CameraMotion {
     pub(crate) fn pose(&self, frame: i32, later: f64) -> Result<Pose, FrameError> {
         let time = f64::from(frame) + later;
         let turntable = self.turntable.as_ref();
-        let turned = turntable.map_or(0.0, |turntable| turntable.degrees_at(frame, later));
-        let about_an_axis = turntable.filter(|turntable| turntable.axis.is_some());
-        let camera = match about_an_axis {
-            Some(turntable) => self
-                .channels
-                .at(time, 0.0)
-                .map(|camera| turntable.turn(camera, self.target(), turned)),
-            // The vertical is that of the azimuth.
-            None => self.channels.at(time, turned),
-        };
+        let turn = turntable.map(|turntable| turntable.turn(turntable.degrees_at(frame, later)));
+        let (azimuth, rotation) = turn.unwrap_or((0.0, None));
+        let camera = self.channels.at(time, azimuth);
+        let mut camera = camera.map_err(|fault| FrameError { frame, fault })?;
+        if let Some(rotation) = rotation {
+            camera = turned_about(camera, self.target(), rotation);
+        }
         Ok(Pose {
-            camera: camera.map_err(|fault| FrameError { frame, fault })?,
+            camera,
             zoom: self.zoom.at(time),
         })
     }

@@ -6,8 +6,8 @@ use glam::{DMat3, DVec3};
 use marbles_core::{Angle, Camera};
 
 use super::framing::Turning;
-use crate::file::Animation;
-use crate::text::optional;
+use crate::file::{Animation, Up};
+use crate::text::{optional, refuse};
 
 /// A turn in degrees.
 const TURN: f64 = 360.0;
@@ -19,8 +19,10 @@ pub(super) struct Turntable {
     pub(super) frames: i32,
     /// Turns in a loop, or swings there and back.
     pub(super) turns: f64,
-    /// The unit vector along the axis; `None` for the vertical.
+    /// The unit vector along the axis; `None` for the one that points up.
     pub(super) axis: Option<DVec3>,
+    /// The axis that points up.
+    pub(super) up: Up,
     /// The angle in degrees to which it swings, to both sides; `None` where it goes around.
     pub(super) swing: Option<f64>,
 }
@@ -32,17 +34,23 @@ impl Turntable {
             frames,
             turns,
             axis,
+            up,
             swing,
             ..
         } = animation
         else {
             return None;
         };
+        if let (Some(_), Some(up)) = (axis, up) {
+            let message = "expected `axis` or `up`, found both";
+            return refuse(up.place.clone(), message);
+        }
         let axis = optional(axis, |axis| Some(axis.0))?;
         Some(Self {
             frames: frames.get()?.0,
             turns: turns.get()?.0,
             axis: axis.filter(|axis| *axis != DVec3::Y),
+            up: optional(up, |up| Some(*up))?.unwrap_or_default(),
             swing: optional(swing, |swing| Some(swing.0))?,
         })
     }
@@ -70,7 +78,9 @@ impl Turntable {
             let still = Angle::from_degrees(0.0);
             let forward = Camera::free(DVec3::ZERO, angle, still, still).forward();
             let right = DVec3::new(forward.z, 0.0, -forward.x);
-            return DMat3::from_cols(right, DVec3::Y, forward);
+            let about_y = DMat3::from_cols(right, DVec3::Y, forward);
+            let upright = upright(self.up);
+            return upright * about_y * upright.transpose();
         };
         // Rodrigues' formula, for each vector of the world's axes.
         let turned = |vector: DVec3| {
@@ -80,21 +90,25 @@ impl Turntable {
         DMat3::from_cols(turned(DVec3::X), turned(DVec3::Y), turned(DVec3::Z))
     }
 
-    /// A camera that is turned with it, so many degrees about the axis through `target`.
-    pub(super) fn turn(&self, camera: Camera, target: DVec3, degrees: f64) -> Camera {
-        let rotation = self.rotation_by(degrees);
-        let about_target = |point: DVec3| target + rotation * (point - target);
-        Camera {
-            position: about_target(camera.position),
-            on_axis: about_target(camera.on_axis),
-            world_from_camera: rotation * camera.world_from_camera,
+    /// The angle in degrees by which the azimuth of a camera grows, where the axis is that of the azimuth, and the rotation
+    /// about the target that follows, where there is one.
+    pub(super) fn turn(&self, degrees: f64) -> (f64, Option<DMat3>) {
+        match (self.axis, self.up) {
+            (Some(_), _) => (0.0, Some(self.rotation_by(degrees))),
+            (None, Up::Y) => (degrees, None),
+            (None, up) => (degrees, Some(upright(up))),
         }
+    }
+
+    /// The camera's axes in the world, before it turns, where they would be these if y pointed up.
+    pub(super) fn stand(&self, world_from_camera: DMat3) -> DMat3 {
+        upright(self.up) * world_from_camera
     }
 
     /// The motion of a camera that it turns.
     pub(super) fn turning(&self) -> Turning {
         Turning::Around {
-            axis: self.axis.unwrap_or(DVec3::Y),
+            axis: self.axis.unwrap_or(upright(self.up).y_axis),
             swing: self.swing.map_or(PI, f64::to_radians),
         }
     }
@@ -138,6 +152,25 @@ impl Turntable {
     /// Returns whether the frame after the last is the first.
     fn loops(&self) -> bool {
         libm::fmod(self.turns, 1.0) == 0.0
+    }
+}
+
+/// The quarter turn by which y becomes the axis that points up, as the one of a table's `up` goes back.
+fn upright(up: Up) -> DMat3 {
+    match up {
+        Up::X => DMat3::from_cols(-DVec3::Y, DVec3::X, DVec3::Z),
+        Up::Y => DMat3::IDENTITY,
+        Up::Z => DMat3::from_cols(DVec3::X, DVec3::Z, -DVec3::Y),
+    }
+}
+
+/// A camera that is turned by a rotation about `target`.
+pub(super) fn turned_about(camera: Camera, target: DVec3, rotation: DMat3) -> Camera {
+    let about_target = |point: DVec3| target + rotation * (point - target);
+    Camera {
+        position: about_target(camera.position),
+        on_axis: about_target(camera.on_axis),
+        world_from_camera: rotation * camera.world_from_camera,
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) fn kind(path: &Path, head: &[u8]) -> Kind {
     let start = &text[token::skip_trivia(text, 0)..];
     let is_named_so = path.extension().is_some_and(|ending| ending == "ron");
     // Zstandard's first byte is a parenthesis, and so may that of a table's title be.
-    let is_table = is_compressed(head) || !is_named_so && Format::is_marked(head);
+    let is_table = is_compressed(head) || !is_named_so && Format::is_certain(path, head);
     let is_open = start.starts_with('(') && !is_table;
     if is_open || is_named_so && start.starts_with('#') {
         return Kind::Scene;

@@ -3,6 +3,7 @@
 use std::io;
 
 use super::foreign::Foreign;
+use super::other_file::OtherName;
 use crate::text::LocatedFault;
 
 /// The reason for which there is no table.
@@ -18,8 +19,14 @@ pub(crate) enum TableError {
     Fault(LocatedFault),
     /// It has no cell, and this field of the scene file needs one.
     NoCell(&'static str),
+    /// It has this format and no atoms that a topology could tell.
+    NoTrajectory(&'static str),
+    /// What the scene file asks of the positions of a trajectory cannot be shown, as this message says.
+    InTopology(String),
     /// What the scene file asks for cannot be shown, as this message says.
     InScene(String),
+    /// Something is wrong with another file, which it names or the scene does.
+    InOther(OtherName, Box<Self>),
     /// It is not the file any more that was read before.
     Changed,
 }

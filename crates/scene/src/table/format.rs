@@ -8,12 +8,14 @@ use super::foreign::{self, Foreign};
 use super::form::{self, LineKind};
 use super::input::without_return;
 use super::number::parse;
-use super::{gsd, lammps_data, mol2, npy, npz, poscar, pqr, sdf, vtk, vtk_xml};
+use super::{dcd, gsd, lammps_data, mol2, npy, npz, poscar, pqr, sdf, vtk, vtk_xml, xtc};
 
 /// The format of a table.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Format {
     Csv,
+    /// Trajectories of CHARMM and NAMD.
+    Dcd,
     /// Rows of text whose separators the first line tells.
     Text,
     Gro,
@@ -28,17 +30,21 @@ pub(crate) enum Format {
     Pdb,
     Ply,
     Pqr,
+    /// The files of several times, in VTK XML.
+    Pvd,
     /// Molecules of one file, one of them or several.
     Sdf,
     /// Structures and trajectories of VASP.
     Vasp,
     Vtk,
     VtkXml,
+    /// Trajectories of GROMACS.
+    Xtc,
     Xyz,
 }
 
 /// The endings of names by which formats are told.
-pub(crate) const ENDINGS: [(&str, Format); 34] = [
+pub(crate) const ENDINGS: [(&str, Format); 37] = [
     ("csv", Format::Csv),
     ("tsv", Format::Csv),
     ("txt", Format::Text),
@@ -73,6 +79,9 @@ pub(crate) const ENDINGS: [(&str, Format); 34] = [
     ("vasp", Format::Vasp),
     ("vtu", Format::VtkXml),
     ("vtp", Format::VtkXml),
+    ("pvd", Format::Pvd),
+    ("xtc", Format::Xtc),
+    ("dcd", Format::Dcd),
 ];
 
 impl Format {
@@ -119,9 +128,13 @@ impl Format {
         }
     }
 
-    /// Says whether a file that begins so has the marks of a format.
-    pub(crate) fn is_marked(head: &[u8]) -> bool {
+    /// Says whether a file that begins so, with a title or with the marks of a format, is surely no text of another kind:
+    /// titles may be anything.
+    pub(crate) fn is_certain(path: &Path, head: &[u8]) -> bool {
+        let is_titled = |format: Self| matches!(format, Self::Gro | Self::Vasp);
         by_magic(head).is_some()
+            || Self::by_ending(path).is_some_and(is_titled)
+            || by_contents(head).is_some_and(is_titled)
     }
 
     /// The format that the ending of a name tells.
@@ -136,7 +149,8 @@ impl Format {
     pub(crate) fn is_right_handed(self) -> bool {
         match self {
             Self::Csv | Self::Text | Self::Npy | Self::Npz => false,
-            Self::Gro
+            Self::Dcd
+            | Self::Gro
             | Self::Gsd
             | Self::Lammps
             | Self::LammpsData
@@ -145,10 +159,12 @@ impl Format {
             | Self::Pdb
             | Self::Ply
             | Self::Pqr
+            | Self::Pvd
             | Self::Sdf
             | Self::Vasp
             | Self::Vtk
             | Self::VtkXml
+            | Self::Xtc
             | Self::Xyz => true,
         }
     }
@@ -164,18 +180,26 @@ impl Format {
             | Self::Npy
             | Self::Npz
             | Self::Ply
+            | Self::Pvd
             | Self::Sdf
             | Self::Vtk
             | Self::VtkXml => false,
-            Self::Gro
+            Self::Dcd
+            | Self::Gro
             | Self::Gsd
             | Self::Lammps
             | Self::MmCif
             | Self::Pdb
             | Self::Pqr
             | Self::Vasp
+            | Self::Xtc
             | Self::Xyz => true,
         }
+    }
+
+    /// Says whether files of this format may be compressed as a whole: of others the bytes are not read in their order.
+    pub(crate) fn may_be_compressed(self) -> bool {
+        !matches!(self, Self::Npz | Self::Gsd | Self::Xtc | Self::Dcd)
     }
 
     /// The certain kind of a file, by its first bytes or the ending of its name: a table, or a file of another kind.
@@ -196,6 +220,7 @@ impl Format {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Csv => "CSV",
+            Self::Dcd => "DCD",
             Self::Text => "text",
             Self::Gro => "GRO",
             Self::Gsd => "GSD",
@@ -208,10 +233,12 @@ impl Format {
             Self::Pdb => "PDB",
             Self::Ply => "PLY",
             Self::Pqr => "PQR",
+            Self::Pvd => "PVD",
             Self::Sdf => "SDF",
             Self::Vasp => "a structure of VASP",
             Self::Vtk => "legacy VTK",
             Self::VtkXml => "VTK XML",
+            Self::Xtc => "XTC",
             Self::Xyz => "XYZ",
         }
     }
@@ -235,8 +262,17 @@ fn by_magic(head: &[u8]) -> Option<Format> {
     if gsd::is_like(head) {
         return Some(Format::Gsd);
     }
+    if xtc::is_like(head) {
+        return Some(Format::Xtc);
+    }
+    if dcd::is_like(head) {
+        return Some(Format::Dcd);
+    }
     if vtk_xml::is_like(head) {
         return Some(Format::VtkXml);
+    }
+    if vtk_xml::is_collection(head) {
+        return Some(Format::Pvd);
     }
     if magic(b"ITEM:") {
         return Some(Format::Lammps);

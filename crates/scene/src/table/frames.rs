@@ -1,18 +1,25 @@
 //! A table that is open, whose frames are read one after another.
 
+mod facts;
+mod places;
+
 use std::fmt;
-use std::io;
 use std::path::{Path, PathBuf};
 
+pub(crate) use self::places::FramePlace;
 use super::compression::Compression;
 use super::error::TableError;
 use super::file_state::FileState;
 use super::format::Format;
 use super::header::Header;
 use super::input::Input;
+use super::other_file::{OtherFile, OtherName};
+use super::other_table::{OtherTable, ReadOther};
 use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
+use super::trajectory::{Trajectory, TrajectoryKind};
+use super::vtk_xml::Collection;
 use super::{
     delimited, gro, gsd, lammps, lammps_data, mmcif, mol2, npy, npz, pdb, ply, poscar, pqr, sdf,
     vtk, vtk_xml, xyz,
@@ -34,15 +41,12 @@ pub(crate) struct Frames<'watch> {
     array: Option<npy::Array>,
     /// The index of a GSD file, whose next frame is the number of lines that were passed.
     gsd: Option<gsd::File>,
-}
-
-/// The place of a frame in a table.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(crate) struct FramePlace {
-    /// The byte at which it begins, of the decompressed file.
-    position: u64,
-    /// The lines before it.
-    lines: u64,
+    /// What was read of a trajectory besides its next frame.
+    trajectory: Option<Trajectory>,
+    /// The files of a collection.
+    collection: Option<Collection>,
+    /// The files that were read besides this one.
+    others: Vec<OtherFile>,
 }
 
 impl fmt::Debug for Frames<'_> {
@@ -88,13 +92,10 @@ impl<'watch> Frames<'watch> {
             return Err(LocatedFault::of_file(message).into());
         }
         let format = Format::of(path, input.head()).map_err(TableError::UnknownFormat)?;
-        if let (Format::Npz | Format::Gsd, Some(outer)) = (format, input.source().compression) {
-            let kind = match format {
-                Format::Npz => "NPZ archive",
-                _ => "GSD file",
-            };
+        if let (false, Some(outer)) = (format.may_be_compressed(), input.source().compression) {
+            let name = format.name();
             let message = format!(
-                "expected an uncompressed {kind}, found one in a {outer} file: decompress it once"
+                "expected an uncompressed {name} file, found one in a {outer} file: decompress it once"
             );
             return Err(LocatedFault::of_file(message).into());
         }
@@ -116,7 +117,25 @@ impl<'watch> Frames<'watch> {
             is_at_end: false,
             array: None,
             gsd: None,
+            trajectory: match format {
+                Format::Xtc => Some(Trajectory::new(TrajectoryKind::Xtc)),
+                Format::Dcd => Some(Trajectory::new(TrajectoryKind::Dcd(None))),
+                _ => None,
+            },
+            collection: None,
+            others: Vec::new(),
         })
+    }
+
+    /// Takes the atoms of a trajectory from another table.
+    pub(crate) fn set_topology(&mut self, topology: OtherName) -> Result<(), TableError> {
+        match &mut self.trajectory {
+            Some(trajectory) => {
+                trajectory.set_topology(topology);
+                Ok(())
+            }
+            None => Err(TableError::NoTrajectory(self.format.name())),
+        }
     }
 
     /// True where the format may have more frames than one.
@@ -134,7 +153,8 @@ impl<'watch> Frames<'watch> {
                 | Format::Npy
                 | Format::Sdf
                 | Format::Vasp
-        )
+                | Format::Pvd
+        ) || self.trajectory.is_some()
     }
 
     /// Reads the next frame; `None` behind the last one.
@@ -149,6 +169,13 @@ impl<'watch> Frames<'watch> {
             .filter(|_| !self.format.may_have_cell())
         {
             return Err(TableError::NoCell(field));
+        }
+        if let Some(trajectory) = &mut self.trajectory {
+            let rows = trajectory.read(input, (&mut self.others, read_other), request)?;
+            return match rows {
+                Some(rows) => self.finished(rows, request).map(Some),
+                None => Ok(None),
+            };
         }
         let rows = match self.format {
             Format::Npy => {
@@ -170,6 +197,19 @@ impl<'watch> Frames<'watch> {
                     None => return Ok(None),
                 }
             }
+            Format::Pvd => {
+                self.open_collection()?;
+                let (input, others) =
+                    (&mut self.input, (&mut self.others, read_other as ReadOther));
+                let rows = match &self.collection {
+                    Some(collection) => collection.read(input, others, request)?,
+                    None => None,
+                };
+                match rows {
+                    Some(rows) => Ok(rows),
+                    None => return Ok(None),
+                }
+            }
             Format::Npz => npz::read(&self.path, request),
             Format::Ply => ply::read(input, request),
             Format::Vtk => vtk::read(input, request),
@@ -184,70 +224,25 @@ impl<'watch> Frames<'watch> {
             }
         };
         self.is_at_end = !self.may_be_several();
-        let mut rows = rows?;
+        self.finished(rows?, request).map(Some)
+    }
+
+    /// The rows of a frame with what the format says of all, and with the cells that are asked for.
+    fn finished(&self, mut rows: Rows, request: &Request) -> Result<Rows, TableError> {
         rows.is_right_handed = self.format.is_right_handed();
         rows.kept.get_or_insert(rows.spheres.len() as u64);
         request.periodic.apply(&mut rows)?;
-        Ok(Some(rows))
+        Ok(rows)
     }
 
-    /// Passes over the next frame; returns whether there was one.
-    pub(crate) fn skip(&mut self) -> Result<bool, TableError> {
-        if !self.may_be_several() {
-            return Ok(!std::mem::replace(&mut self.is_at_end, true));
-        }
-        if self.format == Format::Npy {
-            let array = match &self.array {
-                Some(array) => array,
-                None => self.array.insert(npy::Array::new(&mut self.input)?),
-            };
-            let is_one = array.skip(&mut self.input)?;
-            if !is_one {
-                array.check_end(&mut self.input)?;
-            }
-            return Ok(is_one);
-        }
-        if self.format == Format::Gsd {
-            let input = &mut self.input;
-            let frames = Self::gsd(&mut self.gsd, input)?.frames;
-            let is_one = input.number < frames;
-            input.number += u64::from(is_one);
-            return Ok(is_one);
-        }
-        let Some(header) = self.header()? else {
-            return Ok(false);
-        };
-        header.skip(&mut self.input)?;
-        self.previous = Some(header);
-        Ok(true)
+    /// The files that a collection lists, once something of it was read.
+    pub(crate) fn listed_files(&self) -> impl Iterator<Item = PathBuf> {
+        self.collection.iter().flat_map(Collection::files)
     }
 
-    /// True of formats of simulations, in whose tables z usually points up.
-    pub(crate) fn has_z_up(&self) -> bool {
-        matches!(
-            self.format,
-            Format::Lammps | Format::LammpsData | Format::Gro | Format::Gsd
-        )
-    }
-
-    /// True of a table that lists the atoms of a crystal's cell, after a frame was read.
-    pub(crate) fn is_crystal(&self) -> bool {
-        let header = self.previous.as_ref();
-        self.format == Format::Vasp || header.is_some_and(|header| header.crystal.is_some())
-    }
-
-    /// The name of the format.
-    pub(crate) fn format(&self) -> &'static str {
-        self.format.name()
-    }
-
-    /// True of lines that are stored as they are.
-    pub(crate) fn is_plain_text(&self) -> bool {
-        let is_binary = matches!(
-            self.format,
-            Format::Npy | Format::Npz | Format::Ply | Format::Vtk | Format::VtkXml | Format::Gsd
-        );
-        !is_binary && self.input.can_seek()
+    /// Takes the files that were read besides this one.
+    pub(crate) fn take_others(&mut self) -> Vec<OtherFile> {
+        std::mem::take(&mut self.others)
     }
 
     /// Takes possible faults in the file and what is left out of it, as far as it was read.
@@ -299,59 +294,13 @@ impl<'watch> Frames<'watch> {
         Ok(self.input.check_count(count as u64, "frames")?)
     }
 
-    /// Says whether another frame follows. What follows and is no frame is noted as left out.
-    pub(crate) fn has_more(&mut self) -> bool {
-        if let Some(array) = &self.array {
-            return array.tables > 1;
+    /// Reads the list of a collection's files once.
+    fn open_collection(&mut self) -> Result<(), TableError> {
+        if self.format == Format::Pvd && self.collection.is_none() {
+            let folder = self.path.parent().unwrap_or(Path::new(""));
+            self.collection = Some(Collection::new(&mut self.input, folder)?);
         }
-        if let Some(file) = &self.gsd {
-            return self.input.number < file.frames;
-        }
-        if self.is_at_end {
-            return false;
-        }
-        match self.header() {
-            Ok(next) => self.next = next,
-            Err(TableError::Fault(mut fault)) => {
-                fault.message = format!("no frame follows the first one here: {}", fault.message);
-                self.input.leave_out(fault);
-            }
-            // What cannot be read is told where the file is read to its end.
-            Err(_) => {}
-        }
-        self.next.is_some()
-    }
-
-    /// The place of the next frame, before anything of it was read.
-    pub(crate) fn place(&self) -> FramePlace {
-        FramePlace {
-            position: self.input.position,
-            lines: self.input.number,
-        }
-    }
-
-    /// Continues with the frame at this place, which must not lie before the next one in a compressed file.
-    pub(crate) fn go_to(&mut self, place: FramePlace) -> io::Result<()> {
-        (self.next, self.is_at_end) = (None, false);
-        if self.format == Format::Npy && self.array.is_none() {
-            self.array = npy::Array::new(&mut self.input).ok();
-        }
-        if matches!(self.format, Format::MmCif | Format::Pdb | Format::Vasp) {
-            // The columns and the cell are told once, before the first frame.
-            match place.lines {
-                0 => self.previous = None,
-                _ if self.previous.is_none() => self.previous = self.header().ok().flatten(),
-                _ => {}
-            }
-        }
-        let is_ahead = place.position > self.input.position;
-        if self.format == Format::Xyz && self.previous.is_none() && is_ahead {
-            // The first frame decides what numbers of atoms mean.
-            self.previous = self.header().ok().flatten();
-        }
-        // The first table's place is that of the header before it.
-        let start = self.array.as_ref().map_or(0, npy::Array::start);
-        self.input.skip_to(place.position.max(start), place.lines)
+        Ok(())
     }
 
     /// The index of a GSD file, which is read once.
@@ -389,7 +338,33 @@ impl<'watch> Frames<'watch> {
             | Format::Ply
             | Format::Vtk
             | Format::VtkXml
+            | Format::Pvd
+            | Format::Xtc
+            | Format::Dcd
             | Format::Gsd => Ok(None),
         }
     }
+}
+
+/// Reads the first frame of another table, which must not be a list of others: it could list itself.
+fn read_other(named: &OtherName, request: &Request) -> Result<OtherTable, TableError> {
+    let mut frames = Frames::open(&named.path, &|_, _| {})?;
+    let format = frames.format;
+    if format == Format::Pvd {
+        let message = "expected a table in a single file, found PVD, which lists files";
+        return Err(LocatedFault::of_file(message).into());
+    }
+    let rows = frames.read(request)?;
+    let rows = rows.ok_or_else(|| LocatedFault::of_file("expected a frame, found none"))?;
+    frames.finish()?;
+    Ok(OtherTable {
+        rows,
+        format,
+        angstrom: frames.angstrom(),
+        file: OtherFile {
+            path: named.path.clone(),
+            state: frames.state(),
+            doubts: frames.take_doubts(),
+        },
+    })
 }

@@ -91,6 +91,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Header, TableError> {
                     .ok_or_else(|| refused("the number of atoms before"))?;
                 return atoms(input, &said, count, (number, &line));
             }
+            [b"Velocities"] => input.leave_out(unread_velocities(number, &line)),
             // The box, other counts and other sections.
             _ => {}
         }
@@ -294,6 +295,33 @@ fn close(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
             let expected = "the name of a section after the atoms that the file counts";
             Err(LocatedFault::expected(number, line, 0..line.len(), expected).into())
         }
-        _ => Ok(()),
+        _ => tell_velocities(input),
     }
+}
+
+/// Says that velocities are left out, if a section behind the atoms has some.
+fn tell_velocities(input: &mut Input<'_>) -> Result<(), TableError> {
+    const NAME: &[u8] = b"Velocities";
+    /// About how many bytes are looked at as one.
+    const BLOCK: usize = 1 << 20;
+    while let Some(block) = input.next_block(u64::MAX, BLOCK)? {
+        let is_start = |at: &usize| *at == 0 || block[at - 1] == b'\n';
+        let found = memchr::memmem::find_iter(block, NAME).find(is_start);
+        let lines = |bytes: &[u8]| memchr::memchr_iter(b'\n', bytes).count() as u64;
+        let (before, all) = (found.map(|at| lines(&block[..at])), lines(block));
+        let number = input.number;
+        input.number += all;
+        if let Some(before) = before {
+            input.leave_out(unread_velocities(number + before + 1, NAME));
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The warning about velocities, whose section begins in this line.
+fn unread_velocities(number: u64, line: &[u8]) -> LocatedFault {
+    let told =
+        "the velocities of this section are not read: a dump with `vx vy vz` has them as columns";
+    LocatedFault::in_line(number, line, 0..line.len(), told.to_owned())
 }

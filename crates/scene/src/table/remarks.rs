@@ -1,6 +1,8 @@
 //! Doubts and guesses while a table was read.
 
 use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
 
 use super::columns::Plan;
 use super::element;
@@ -22,6 +24,8 @@ pub(crate) struct Remarks {
     guesses: Vec<LocatedFault>,
     /// The names of `radii` that a row had.
     used_radii: Vec<bool>,
+    /// The file in which all of this is, if it is not the table.
+    pub(crate) file: Option<Arc<Path>>,
 }
 
 /// The most names that are listed.
@@ -101,6 +105,7 @@ impl Remarks {
         self.first = self.first.take().or(others.first);
         self.points += others.points;
         self.first_point = self.first_point.take().or(others.first_point);
+        self.file = self.file.take().or(others.file);
         for guess in others.guesses {
             self.add_guess(guess);
         }

@@ -31,6 +31,8 @@ pub(crate) struct Request {
     pub(crate) keep: Vec<Filter>,
     /// The cells that are shown.
     pub(crate) periodic: Periodic,
+    /// The places of rows are wanted.
+    pub(crate) has_places: bool,
 }
 
 /// The choices of a scene file about the cell of a table.

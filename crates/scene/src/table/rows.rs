@@ -24,6 +24,8 @@ pub(crate) struct Rows {
     /// The last line of a text is a row.
     pub(crate) ends_with_row: bool,
     pub(crate) spheres: Vec<Sphere>,
+    /// The rows that the spheres are, counted from 0, if the request asks for them.
+    pub(crate) places: Vec<u64>,
     pub(crate) paint: Paint,
     /// The numbers that a colormap turns into colors are those of this column.
     pub(crate) value_name: Option<String>,
@@ -76,6 +78,7 @@ impl Rows {
             kept: None,
             ends_with_row: false,
             spheres: Vec::new(),
+            places: Vec::new(),
             paint: Paint::new(plan.coloring),
             columns: Arc::clone(&plan.names.0),
             value_name: plan.value_name().map(str::to_owned),
@@ -175,7 +178,28 @@ impl Rows {
             }
         }
         self.spheres.push(sphere);
+        if plan.has_places {
+            self.places.push(self.read - 1);
+        }
         Ok(pushed)
+    }
+
+    /// Takes away the spheres that are not kept.
+    pub(crate) fn retain(&mut self, kept: &[bool]) {
+        fn retain<T>(all: &mut Vec<T>, kept: &[bool]) {
+            let mut kept = kept.iter();
+            all.retain(|_| kept.next().is_some_and(|is_kept| *is_kept));
+        }
+        retain(&mut self.spheres, kept);
+        retain(&mut self.places, kept);
+        match &mut self.paint {
+            Paint::Material | Paint::Distinct(_) => {}
+            Paint::Colors(colors) => retain(colors, kept),
+            Paint::Elements(numbers) => retain(numbers, kept),
+            Paint::Values(values) => retain(values, kept),
+            Paint::Categories(categories) => retain(&mut categories.indices, kept),
+        }
+        self.kept = Some(self.spheres.len() as u64);
     }
 
     /// Adds others that are read by the same plan.
@@ -191,6 +215,9 @@ impl Rows {
             let all = self.spheres.len() + more;
             enough.map_err(|_| TableError::OutOfMemory(all as u64))?;
         }
+        let before = self.read;
+        self.places
+            .extend(others.places.iter().map(|place| before + place));
         self.read += others.read;
         self.remarks.append(others.remarks);
         self.has_times |= others.has_times;

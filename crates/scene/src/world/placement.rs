@@ -57,9 +57,10 @@ impl Placement {
         }
         parallel::change_all(spheres, |_, sphere| {
             let mut center = (sphere.center() - middle) * axes;
-            // A quarter turn about x, by which z of the table becomes y: no picture is mirrored.
+            // A quarter turn by which the axis becomes y: no picture is mirrored.
             center = match (self.up, is_right_handed) {
                 (Up::Y, _) => center,
+                (Up::X, _) => DVec3::new(-center.y, center.x, center.z),
                 (Up::Z, false) => DVec3::new(center.x, center.z, -center.y),
                 (Up::Z, true) => DVec3::new(center.x, -center.z, center.y),
             };

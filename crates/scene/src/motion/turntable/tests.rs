@@ -6,6 +6,7 @@ const STILL: Turntable = Turntable {
     frames: 1,
     turns: 0.0,
     axis: None,
+    up: Up::Y,
     swing: None,
 };
 
@@ -129,6 +130,17 @@ fn turns_about_an_axis() {
         frames: 7,
         ..about(DVec3::Y)
     };
+    // So are other axes that point up.
+    for (up, axis) in [(Up::X, DVec3::X), (Up::Z, DVec3::Z)] {
+        let upright = Turntable { up, ..vertical };
+        let apart = upright.rotation(3)
+            - Turntable {
+                frames: 7,
+                ..about(axis)
+            }
+            .rotation(3);
+        assert!(apart.abs().to_cols_array().iter().all(|part| *part < 1e-15));
+    }
     for frame in 1..=7 {
         let apart = vertical.rotation(frame) - named.rotation(frame);
         assert!(apart.abs().to_cols_array().iter().all(|part| *part < 1e-15));

@@ -39,6 +39,26 @@ fn tables_are_told_from_scenes() {
             b"(by hand)\n\n\n  1  0  0  0  0  0  0  0  0  0999 V2000\n",
             true,
         ),
+        (
+            "k.gro",
+            b"(by hand)\n1\n    1LIG      C    1   5.000   5.000   5.000\n 9 9 9\n",
+            true,
+        ),
+        (
+            "k",
+            b"(by hand)\n1\n    1LIG      C    1   5.000   5.000   5.000\n 9 9 9\n",
+            true,
+        ),
+        (
+            "POSCAR",
+            b"(by hand)\n1\n9 0 0\n0 9 0\n0 0 9\nC\n1\nCartesian\n1 2 3\n",
+            true,
+        ),
+        (
+            "k.ron",
+            b"(by hand)\n1\n    1LIG      C    1   5.000   5.000   5.000\n 9 9 9\n",
+            false,
+        ),
         ("k.ron", b"(by hand)\n\n2 atoms\n1 atom types\n", false),
         ("i.ron", b"(image: 0 0 0)", false),
         ("j", b"image: 0 0 0", false),

@@ -12,7 +12,7 @@ mod uses;
 
 pub(crate) use filter::Test;
 pub(crate) use kinds::plan_of_kinds;
-pub(crate) use names::{MOST_COLUMNS, components, has_axis, marked, tells_radius, unit};
+pub(crate) use names::{MOST_COLUMNS, axis_of, components, has_axis, marked, tells_radius, unit};
 pub(crate) use plan::{Nature, Plan, RadiusSource, ValueSource};
 pub(crate) use slot::{MOST_FILTERS, Slot};
 pub(crate) use uses::Uses;

@@ -180,6 +180,19 @@ pub(crate) fn has_axis(names: &Arc<Vec<String>>, axis: usize) -> bool {
     Names(Arc::clone(names)).find_slot(slot).is_some()
 }
 
+/// The axis, from 0 to 2, whose positions a column has that the scene file names: one of these columns, or one that a
+/// trajectory has besides them.
+pub(crate) fn axis_of(names: &Arc<Vec<String>>, column: &ColumnRef) -> Option<usize> {
+    let known = Names(Arc::clone(names));
+    let chosen = known.chosen(column).ok();
+    let slots = [Slot::X, Slot::Y, Slot::Z].into_iter().enumerate();
+    let mut slots = slots.filter(|(_, slot)| match column {
+        ColumnRef::Name(name) if name.eq_ignore_ascii_case(slot.names()[0]) => true,
+        _ => chosen.is_some() && known.find_slot(*slot) == chosen,
+    });
+    slots.next().map(|(axis, _)| axis)
+}
+
 /// Says whether a column with one of these names holds radii or diameters.
 pub(crate) fn tells_radius(names: &Arc<Vec<String>>) -> bool {
     let names = Names(Arc::clone(names));

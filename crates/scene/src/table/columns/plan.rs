@@ -72,6 +72,8 @@ pub(crate) struct Plan {
     pub(crate) has_element_categories: bool,
     /// The numbers that are allowed.
     pub(crate) allowed: Allowed,
+    /// The places of rows are noted.
+    pub(crate) has_places: bool,
     /// Rows whose value is missing are left out.
     pub(crate) hides_missing: bool,
     /// The numbers of a row before anything of it is read: those of columns that are constant.
@@ -121,6 +123,7 @@ impl Plan {
                 is_encoded: false,
                 has_radius_law: columns.radius_law != RadiusLaw::Linear,
             },
+            has_places: request.has_places,
             hides_missing: request.missing == Missing::Hide,
             constants: [0.0; Slot::COUNT],
             axes: None,

@@ -38,24 +38,12 @@ pub(super) const KINDS: &[Foreign] = &[
         &[(257, b"ustar"), (0, b"7z\xbc\xaf\x27\x1c"), (0, b"Rar!")],
     ),
     of(
-        "a trajectory of GROMACS (XTC)",
-        TRAJECTORY,
-        &["xtc"],
-        &[(0, b"\0\0\x07\xcb"), (0, b"\0\0\x07\xe7")],
-    ),
-    of(
         "a trajectory of GROMACS (TRR)",
         TRAJECTORY,
         &["trr"],
         &[(0, b"\0\0\x07\xc9")],
     ),
     of("a trajectory of GROMACS (TNG)", TRAJECTORY, &["tng"], &[]),
-    of(
-        "a trajectory of CHARMM or NAMD (DCD)",
-        TRAJECTORY,
-        &["dcd"],
-        &[(4, b"CORD")],
-    ),
     of(
         "a trajectory of Amber, or other data in NetCDF",
         TRAJECTORY,
@@ -145,12 +133,6 @@ pub(super) const KINDS: &[Foreign] = &[
         "an XML file of VTK",
         GRID,
         &["vti", "vts", "vtr", "vtm", "pvtu", "pvtp"],
-        &[],
-    ),
-    of(
-        "a collection of VTK files (PVD)",
-        "name the files that it lists as a numbered series, such as `file: \"run_####.vtu\"`",
-        &["pvd"],
         &[],
     ),
     of(

@@ -72,10 +72,7 @@ fn of_markup(lines: &[&[u8]]) -> Option<&'static str> {
         })
     };
     if has(b"<VTKFile") {
-        return Some(match has(b"type=\"Collection\"") {
-            true => "pvd",
-            false => "vti",
-        });
+        return Some("vti");
     }
     if has(b"<!doctype html") || has(b"<html") {
         return Some("html");

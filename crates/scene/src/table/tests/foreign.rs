@@ -14,7 +14,6 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
     let cube = "title\nmade\n1 0.0 0.0 0.0\n2 1.0 0.0 0.0\n2 0.0 1.0 0.0\n2 0.0 0.0 1.0\n8 0.0 0.1 0.2 0.3\n1 2 3\n";
     let xsf = "# by hand\nCRYSTAL\nPRIMVEC\n1 0 0\n0 1 0\n0 0 1\nPRIMCOORD\n1 1\n8 0 0 0\n";
     let vtu = "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\">\n<Points>1 2 3</Points>\n";
-    let pvd = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\"><Collection>\n";
     let html = "<!DOCTYPE html>\n<html><body>404</body></html>\n";
     let psf = "PSF CMAP\n\n 1 !NTITLE\n REMARKS\n\n 3 !NATOM\n1 A 1 ALA N NH3 -0.3 14.0 0\n";
     for (names, bytes, kind, tool) in [
@@ -53,12 +52,6 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
             vtu.as_bytes(),
             "an XML file of VTK",
             "ParaView",
-        ),
-        (
-            &["a.pvd", "a"],
-            pvd.as_bytes(),
-            "a collection of VTK files (PVD)",
-            "run_####.vtu",
         ),
         (
             &["a.csv", "a.pdb"],

@@ -50,10 +50,10 @@ fn tables_of_text_have_many_forms() {
         "a.txt:1:1: expected the number of a column, from 1 to 5, found 9"
     );
     assert_eq!(
-        refusal("a.xtc", b"\0\0\x07\xcb\0\0", ""),
+        refusal("a.trr", b"\0\0\x07\xc9\0\0", ""),
         "scene.ron:2:17: expected a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.npy`, `.npz`, `.ply`, `.xyz`, `.extxyz`, \
-         `.dump`, `.lammpstrj`, `.gro`, `.gsd`, `.pdb`, `.ent`, `.pdbqt`, `.pqr`, `.cif`, `.mmcif`, `.pdbx`, `.mol2`, `.sdf`, `.sd`, `.mol`, `.mdl`, `.data`, `.lmp`, `.vtk`, `.poscar`, `.contcar`, `.xdatcar`, `.vasp`, `.vtu` or `.vtp`), found \"a.xtc\", \
-         a trajectory of GROMACS (XTC): save it as extended XYZ, PDB or a LAMMPS dump, with MDAnalysis, MDTraj or ASE"
+         `.dump`, `.lammpstrj`, `.gro`, `.gsd`, `.pdb`, `.ent`, `.pdbqt`, `.pqr`, `.cif`, `.mmcif`, `.pdbx`, `.mol2`, `.sdf`, `.sd`, `.mol`, `.mdl`, `.data`, `.lmp`, `.vtk`, `.poscar`, `.contcar`, `.xdatcar`, `.vasp`, `.vtu`, `.vtp`, `.pvd`, `.xtc` or `.dcd`), found \"a.trr\", \
+         a trajectory of GROMACS (TRR): save it as extended XYZ, PDB or a LAMMPS dump, with MDAnalysis, MDTraj or ASE"
     );
 }
 
@@ -307,7 +307,52 @@ fn big_endian_ply_is_read() {
     assert_eq!(spheres(&scene("a.ply", bytes, "")), TWO);
 }
 
-/// Whatever byte is another one, there is a scene or a message.
+/// Alters any byte of a file, or cuts it there: there is a scene or a message.
+fn alter_bytes(name: &str, good: &[u8]) {
+    let folder = Folder::new();
+    let path = folder.0.join(name);
+    let parse = |clouds: &str| {
+        let text = format!(
+            "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(), clouds: [{clouds}])"
+        );
+        let scene = Scene::parse(&text, &folder.0.join("scene.ron"));
+        scene.map_err(|error| {
+            let fault = &error.faults()[0];
+            assert!(fault.message.contains("expected "), "{}", fault.message);
+            assert!(fault.message.contains("found "), "{}", fault.message);
+        })
+    };
+    let first = format!("(file: \"{name}\")");
+    let all = format!("(file: \"{name}\", frames: All)");
+    fs::write(&path, good).unwrap();
+    let has_frames = parse(&all).is_ok();
+    let both = format!("{first}, {all}");
+    for at in 0..good.len() {
+        for other in [None, Some(b'\n'), Some(b'9'), Some(b'-'), Some(0xff)] {
+            let mut bytes = good.to_vec();
+            match other {
+                None => bytes.truncate(at),
+                Some(other) => bytes[at] = other,
+            }
+            let _ = fs::remove_file(&path);
+            fs::write(&path, bytes).unwrap();
+            if !has_frames {
+                let _ = parse(&first);
+            } else if parse(&both).is_err() {
+                // The first frame may have been refused before all of them were looked for.
+                let _ = parse(&all);
+            }
+        }
+    }
+}
+
+#[test]
+fn any_byte_of_atoms_may_be_another_one() {
+    for (name, good) in [("a.pdb", PDB), ("a.pqr", PQR)] {
+        alter_bytes(name, good.as_bytes());
+    }
+}
+
 #[test]
 fn any_byte_of_other_formats_may_be_another_one() {
     let cif = "data_a\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.type_symbol\n1 2 3 C\n#\n";
@@ -317,38 +362,12 @@ fn any_byte_of_other_formats_may_be_another_one() {
     let archive = npz(&[("a", npy(header, &doubles(&TWO[0])))]);
     for (name, good) in [
         ("a.dump", LAMMPS.as_bytes()),
-        ("a.pdb", PDB.as_bytes()),
-        ("a.pqr", PQR.as_bytes()),
         ("a.cif", cif.as_bytes()),
         ("a.gro", gro.as_bytes()),
         ("a.vtk", vtk.as_bytes()),
         ("a.npz", &archive),
         ("a.txt", b"# x y z r\n1 2 3 4\n"),
     ] {
-        let folder = Folder::new();
-        let path = folder.0.join(name);
-        let text = |frames: &str| {
-            format!(
-                "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(), clouds: [(file: \"{name}\"{frames})])"
-            )
-        };
-        for at in 0..good.len() {
-            for other in [None, Some(b'\n'), Some(b'9'), Some(b'-'), Some(0xff)] {
-                let mut bytes = good.to_vec();
-                match other {
-                    None => bytes.truncate(at),
-                    Some(other) => bytes[at] = other,
-                }
-                let _ = fs::remove_file(&path);
-                fs::write(&path, bytes).unwrap();
-                for frames in ["", ", frames: All"] {
-                    if let Err(error) = Scene::parse(&text(frames), &folder.0.join("scene.ron")) {
-                        let fault = &error.faults()[0];
-                        assert!(fault.message.contains("expected "), "{}", fault.message);
-                        assert!(fault.message.contains("found "), "{}", fault.message);
-                    }
-                }
-            }
-        }
+        alter_bytes(name, good);
     }
 }

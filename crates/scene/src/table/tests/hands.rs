@@ -2,8 +2,8 @@
 
 use super::super::ENDINGS;
 use super::formats::npz;
-use super::gsd;
 use super::*;
+use super::{collections, gsd, trajectories};
 
 /// A corner and its neighbors along x, y and z, at distances 1, 2 and 3.
 pub(super) const CORNERS: [[f64; 3]; 4] = [
@@ -54,6 +54,9 @@ pub(super) fn table(ending: &str) -> (Vec<u8>, bool) {
             format!("t\n4\n{atoms} 9 9 9\n")
         }
         "gsd" => return (gsd::file(&CORNERS, 1), true),
+        "xtc" => return (trajectories::xtc(&CORNERS, 1), true),
+        "dcd" => return (trajectories::dcd(&CORNERS, 1), true),
+        "pvd" => collections::collection(&[("0", collections::CORNERS_VTU)]),
         "pdb" | "ent" | "pdbqt" => pdb,
         "pqr" => lines(|id, [x, y, z]| format!("ATOM {id} C LIG 1 {x} {y} {z} 0.5 1.7\n")),
         "cif" | "mmcif" | "pdbx" => format!("{loop_of_atoms}{words}#\n"),

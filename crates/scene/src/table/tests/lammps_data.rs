@@ -8,7 +8,7 @@ fn data(line: &str, atoms: &str) -> String {
     format!(
         "LAMMPS data file via write_data, 3 atoms\n\n{count} atoms\n2 atom types\n1 bonds # one\n\n-5.0 5 xlo xhi\n0 9 ylo yhi\n\
          0 9 zlo zhi\n\nMasses\n\n1 15.9994 # O\n2 1.008 # H1\n\nPair Coeffs # lj/cut\n\n1 0.1 3.2\n2 0 0\n\n{line}\n\n{atoms}\n\
-         Velocities\n\n1 0 0 0\n2 0 0 0\n\nBonds\n\n1 1 1 2\n"
+         Bonds\n\n1 1 1 2\n"
     )
 }
 
@@ -75,6 +75,25 @@ fn styles_of_atoms_are_stated_or_guessed() {
     let fields = "value: \"q\", colormap: Grey, keep: [(\"type\", Between(1, 2))]";
     let colored = scene("a.data", data("Atoms # charge", charged), fields);
     assert_eq!(albedos(&colored), [Color::ZERO, Color::ONE]);
+}
+
+#[test]
+fn velocities_are_said_to_be_left_out() {
+    let told = |text: String| warnings(&scene("a.data", text, ""));
+    let whole = data("Atoms # atomic", "1 1 1 -2.5 0.25\n2 2 4 5 6\n");
+    assert_eq!(told(whole.clone()), "");
+    // The atoms are in the lines 23 and 24, and two lines follow them before the next section.
+    let section = "Velocities\n\n1 0 0 0\n2 0 0 0\n\n";
+    let expected =
+        "the velocities of this section are not read: a dump with `vx vy vz` has them as columns";
+    let before = whole.replace("Bonds", &format!("{section}Bonds"));
+    assert_eq!(told(before), format!("a.data:26: {expected}"));
+    let behind = whole.clone() + "\n" + section;
+    assert_eq!(told(behind), format!("a.data:30: {expected}"));
+    let first = whole.replace("Atoms", &format!("{section}Atoms"));
+    assert_eq!(told(first), format!("a.data:21: {expected}"));
+    // A comment that names it is none.
+    assert_eq!(told(whole + "2 1 1 2 # Velocities\n"), "");
 }
 
 #[test]

@@ -7,6 +7,7 @@
 
 mod base64;
 mod bytes;
+mod collection;
 mod document;
 mod numbers;
 mod tags;
@@ -14,6 +15,7 @@ mod tags;
 use std::borrow::Cow;
 
 use self::bytes::Bytes;
+pub(crate) use self::collection::Collection;
 use self::document::{Array, Document, Piece};
 use self::numbers::Numbers;
 use super::array::{Column, Part};
@@ -36,6 +38,16 @@ const MOST_POINTS_FOR_A_BYTE: u64 = 4;
 
 /// Says whether a file that begins so holds points.
 pub(crate) fn is_like(head: &[u8]) -> bool {
+    has_type(head, &[b"UnstructuredGrid", b"PolyData"])
+}
+
+/// Says whether a file that begins so is a collection.
+pub(crate) fn is_collection(head: &[u8]) -> bool {
+    has_type(head, &[b"Collection"])
+}
+
+/// Says whether a file that begins so has a type among these.
+fn has_type(head: &[u8], types: &[&[u8]]) -> bool {
     let head = &head[..head.len().min(HEAD)];
     let Some(start) = memchr::memmem::find(head, b"<VTKFile") else {
         return false;
@@ -43,7 +55,7 @@ pub(crate) fn is_like(head: &[u8]) -> bool {
     let tag = head[start..].split(|&byte| byte == b'>').next();
     let tag = tag.unwrap_or_default();
     head.trim_ascii_start().starts_with(b"<")
-        && [&b"UnstructuredGrid"[..], b"PolyData"].iter().any(|kind| {
+        && types.iter().any(|kind| {
             [b'"', b'\''].iter().any(|quote| {
                 let value = [&b"type="[..], &[*quote], kind, &[*quote]].concat();
                 memchr::memmem::find(tag, &value).is_some()

@@ -29,11 +29,17 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
         TableError::OutOfMemory(count) => {
             return format!("expected a table that fits into memory, found {count} rows");
         }
-        TableError::InScene(message) => return message.clone(),
+        TableError::InScene(message) | TableError::InTopology(message) => return message.clone(),
+        TableError::InOther(other, error) => return explain(&other.name, &other.path, error),
+        TableError::NoTrajectory(format) => {
+            return format!(
+                "expected a trajectory (XTC or DCD) for `topology`, found {shown}, whose format is {format}"
+            );
+        }
         TableError::NoCell(field) => {
             return format!(
                 "expected a table with a cell for `{field}`, found none in {shown} (extended XYZ with `Lattice`, PDB, CIF, \
-                 GRO, POSCAR and dumps of LAMMPS have one)"
+                 GRO, POSCAR, trajectories and dumps of LAMMPS have one)"
             );
         }
         TableError::Changed => {

@@ -1,6 +1,6 @@
 //! Observations of a cloud's files while they were read.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -13,6 +13,8 @@ pub(super) struct Observed {
     /// The state of each file when it was opened first.
     states: Mutex<HashMap<PathBuf, FileState>>,
     warnings: Mutex<Warnings>,
+    /// The files that were read besides those of the steps.
+    others: Mutex<BTreeSet<PathBuf>>,
 }
 
 /// Sentences about files.
@@ -27,9 +29,34 @@ struct Warnings {
 impl Observed {
     /// Refuses a file that is not the one any more that was opened before at `path`.
     pub(super) fn check(&self, path: &Path, frames: &Frames<'_>) -> Result<(), TableError> {
+        self.check_state(path, frames.state())
+    }
+
+    /// Notes the files that were read besides a table, and refuses one that is not the one any more that was read before.
+    pub(super) fn note_others(&self, frames: &mut Frames<'_>) -> Result<(), TableError> {
+        for other in frames.take_others() {
+            self.check_state(&other.path, other.state)?;
+            self.note_doubts(&other.path.display().to_string(), other.doubts);
+            self.add_others([other.path]);
+        }
+        self.add_others(frames.listed_files());
+        Ok(())
+    }
+
+    fn add_others(&self, paths: impl IntoIterator<Item = PathBuf>) {
+        let mut others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        others.extend(paths);
+    }
+
+    /// The files that were read besides those of the steps.
+    pub(super) fn others(&self) -> Vec<PathBuf> {
+        let others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        others.iter().cloned().collect()
+    }
+
+    fn check_state(&self, path: &Path, state: FileState) -> Result<(), TableError> {
         let mut states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
-        let first = *states.entry(path.to_owned()).or_insert(frames.state());
-        match first == frames.state() {
+        match *states.entry(path.to_owned()).or_insert(state) == state {
             true => Ok(()),
             false => Err(TableError::Changed),
         }

@@ -23,7 +23,7 @@ use crate::text::{Fault, harmless, quoted};
 #[derive(Debug)]
 pub(crate) struct OpenCloud {
     pub(crate) cloud: Cloud,
-    folder: PathBuf,
+    pub(super) folder: PathBuf,
     pub(super) steps: Steps,
     learned: Learned,
     /// Doubts and guesses in all steps, if all were read, and the step that has the first place.
@@ -92,6 +92,7 @@ impl OpenCloud {
             }
             open.observed.check(&path, &frames).map_err(refused)?;
             let all = steps::index(&mut frames).map_err(refused)?;
+            open.observed.note_others(&mut frames).map_err(refused)?;
             frames.finish().map_err(refused)?;
             open.note_doubts(&path, &mut frames);
             let chosen = open.choose(1..=all.len() as i64)?;
@@ -143,12 +144,14 @@ impl OpenCloud {
         }
     }
 
-    /// The files of all steps.
+    /// The files of all steps, and those that are read besides them.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
-        match &self.steps {
+        let mut files = match &self.steps {
             Steps::Files(files) => files.clone(),
             Steps::One | Steps::Frames(_) | Steps::Times(..) => vec![self.path(0)],
-        }
+        };
+        files.extend(self.observed.others());
+        files
     }
 
     /// The way from numbers to colors.
@@ -299,12 +302,27 @@ impl OpenCloud {
     }
 
     pub(super) fn refuse_table(&self, path: &Path, error: TableError) -> CloudError {
+        let (name, path, error) = match error {
+            TableError::InOther(other, error) => (other.name, other.path, *error),
+            error => (self.name_of(path), path.to_owned(), error),
+        };
         match error {
-            TableError::Fault(fault) => CloudError::Table(path.to_owned(), fault),
+            TableError::Fault(fault) => CloudError::Table(path, fault),
             error => {
-                let message = explain(&self.name_of(path), path, &error);
-                let place = match error {
-                    TableError::NoCell(_) | TableError::InScene(_) => &self.cloud.periodic_place,
+                let message = explain(&name, &path, &error);
+                let topology = self.cloud.topology.as_ref();
+                let topology = topology.filter(|(other, _)| *other == name).or_else(|| {
+                    let concerns_it = matches!(
+                        error,
+                        TableError::InTopology(_) | TableError::NoTrajectory(_)
+                    );
+                    topology.filter(|_| concerns_it)
+                });
+                let place = match (&error, topology) {
+                    (_, Some((_, place))) => place,
+                    (TableError::NoCell(_) | TableError::InScene(_), None) => {
+                        &self.cloud.periodic_place
+                    }
                     _ => &self.cloud.place,
                 };
                 let fault = Fault::new(place.clone(), message);

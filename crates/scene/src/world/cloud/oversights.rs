@@ -1,6 +1,7 @@
 //! Categories and names that the colors and radii of a cloud leave out, or show alike.
 
 use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
 use std::sync::PoisonError;
 
 use marbles_core::Albedos;
@@ -31,7 +32,7 @@ impl OpenCloud {
         }
         if is_new && step > 0 {
             let told = remarks.told(self.cloud.request.other_radius.is_none());
-            let path = self.path(step);
+            let path = self.path_of(remarks, step);
             let told = told
                 .into_iter()
                 .map(|fault| Oversight::Table(path.clone(), fault));
@@ -45,6 +46,12 @@ impl OpenCloud {
         std::mem::take(&mut late.oversights)
     }
 
+    /// The file in which the remarks about a step are.
+    fn path_of(&self, remarks: &Remarks, step: usize) -> PathBuf {
+        let other = remarks.file.as_ref();
+        other.map_or_else(|| self.path(step), |other| other.to_path_buf())
+    }
+
     /// Possible oversights about the first step, which is given, or about all that were read for it.
     pub(crate) fn oversights(&self, first: &Step) -> Vec<Oversight> {
         let Cloud { request, scale, .. } = &self.cloud;
@@ -54,7 +61,7 @@ impl OpenCloud {
         };
         let radius = request.other_radius;
         let told = remarks.told(radius.is_none());
-        let path = self.path(step);
+        let path = self.path_of(remarks, step);
         let of_table = |fault| Oversight::Table(path.clone(), fault);
         let mut all: Vec<Oversight> = told.into_iter().map(of_table).collect();
         let of_scene = |place: &std::ops::Range<usize>, message| {

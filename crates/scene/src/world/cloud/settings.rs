@@ -22,6 +22,8 @@ pub(crate) struct Cloud {
     /// The place of its name, in bytes of the scene file.
     pub(crate) place: Range<usize>,
     pub(crate) material: MaterialId,
+    /// The table that tells the atoms of a trajectory, and the place of its name in bytes of the scene file.
+    pub(super) topology: Option<(String, Range<usize>)>,
     /// All frames of its file are steps.
     pub(super) takes_all: bool,
     /// The column whose different numbers are steps, and its place in bytes of the scene file.
@@ -97,6 +99,7 @@ impl Cloud {
             name: cloud.file.value.as_ref()?.0.clone(),
             place: cloud.file.place.clone(),
             material,
+            topology: topology(cloud)?,
             takes_all: cloud.frames.get()? == TakenFrames::All,
             time: time(cloud)?,
             skip_lines: u64::from(cloud.skip_lines.get()?.0),
@@ -128,6 +131,7 @@ impl Cloud {
                 missing: cloud.missing.get()?,
                 keep: filters(&cloud.keep)?,
                 periodic: periodic(cloud)?,
+                has_places: false,
             },
             scale,
             radii_place: cloud.radii.place.clone(),
@@ -174,6 +178,20 @@ fn periodic_place(cloud: &file::Cloud) -> Range<usize> {
         false => flags.iter().find(is_on).map(|flag| &flag.place),
     };
     place.cloned().unwrap_or_default()
+}
+
+/// The name of the table that tells the atoms of a trajectory, and its place.
+fn topology(cloud: &file::Cloud) -> Option<Option<(String, Range<usize>)>> {
+    let Some(topology) = &cloud.topology else {
+        return Some(None);
+    };
+    if let Some(time) = &cloud.time {
+        let message =
+            "expected `topology` or `time`, found both: the frames of a trajectory are its steps";
+        return refuse(time.place.clone(), message);
+    }
+    let name = topology.value.as_ref()?.0.clone();
+    Some(Some((name, topology.place.clone())))
 }
 
 /// The column whose different numbers are steps, and its place.

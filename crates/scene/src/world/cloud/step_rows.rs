@@ -6,7 +6,7 @@ use std::sync::PoisonError;
 use super::CloudError;
 use super::open::{FIRST_OF_SEVERAL, OpenCloud, UNWATCHED};
 use super::steps::Steps;
-use crate::table::{FramePlace, Frames, Request, Rows, TableError};
+use crate::table::{FramePlace, Frames, OtherName, Request, Rows, TableError};
 use crate::text::harmless;
 
 impl OpenCloud {
@@ -16,7 +16,14 @@ impl OpenCloud {
         path: &Path,
         watch: &'watch (dyn Fn(u64, u64) + Sync),
     ) -> Result<Frames<'watch>, TableError> {
-        Frames::open_after(path, self.cloud.skip_lines, watch)
+        let mut frames = Frames::open_after(path, self.cloud.skip_lines, watch)?;
+        if let Some((name, _)) = &self.cloud.topology {
+            frames.set_topology(OtherName {
+                name: name.clone(),
+                path: self.folder.join(name),
+            })?;
+        }
+        Ok(frames)
     }
 
     /// The rows of a step, and whether frames follow that are not read.
@@ -50,6 +57,7 @@ impl OpenCloud {
         self.observed.check(path, &frames)?;
         let rows = frames.read(request);
         frames.check_unchanged()?;
+        self.observed.note_others(&mut frames)?;
         let rows = rows?.ok_or_else(gone)?;
         let has_more = frames.has_more();
         if has_more && path != self.path(0) {
@@ -81,6 +89,7 @@ impl OpenCloud {
         let rows = frames.read(&self.cloud.request);
         // What another one looks like says nothing.
         frames.check_unchanged()?;
+        self.observed.note_others(&mut frames)?;
         let rows = rows?;
         *open = Some(frames);
         rows.ok_or_else(gone)

@@ -53,12 +53,15 @@ fn what_points_up_is_turned_and_never_mirrored() {
         };
         assert!(placement.place(&mut spheres, is_right_handed));
         let [x, y, z] = spheres.map(|sphere| sphere.center());
+        assert!(up != Up::X || x == DVec3::Y);
         (DMat3::from_cols(x, y, z).determinant(), z)
     };
     // A mirror image has the determinant -1, and right-handed axes look like themselves only by one.
     assert_eq!(placed(Up::Y, false), (1.0, DVec3::Z));
     assert_eq!(placed(Up::Z, false), (1.0, DVec3::Y));
+    assert_eq!(placed(Up::X, false), (1.0, DVec3::Z));
     assert_eq!(placed(Up::Y, true), (-1.0, -DVec3::Z));
+    assert_eq!(placed(Up::X, true), (-1.0, -DVec3::Z));
     assert_eq!(placed(Up::Z, true), (-1.0, DVec3::Y));
 }
 
