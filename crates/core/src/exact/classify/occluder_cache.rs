@@ -95,8 +95,8 @@ impl OccluderCache {
         }
     }
 
-    /// Forgets a tile, and begins with the one that covers this cell, with pixels whose shorter side is this, where occluders may cost so
-    /// many units.
+    /// Forgets a tile, and begins with the one that covers this cell, with pixels whose shorter side is this, where
+    /// occluders may cost so many units.
     pub(crate) fn begin(&mut self, tile: Cell, pixel: f64, most_units: u64) {
         self.tile = tile;
         self.pixel = pixel;
