@@ -64,7 +64,11 @@ impl Power {
     #[inline(always)]
     pub(crate) fn lanes<S: Simd>(&self, base: f64x8<S>) -> f64x8<S> {
         match &self.kind {
-            &Kind::Chain { whole, has_half } => chain(base, whole, has_half),
+            Kind::Chain {
+                whole: 1,
+                has_half: false,
+            } => base.select_below(0.0, base.like(0.0), base),
+            &Kind::Chain { whole, has_half } => lanes_by_chain(base, whole, has_half),
             Kind::Logarithm(exponent) => lanes_by_logarithm(base, exponent),
         }
     }
@@ -83,9 +87,6 @@ impl Power {
 #[inline(always)]
 fn chain<L: Lanes>(base: L, whole: u32, has_half: bool) -> L {
     let base = base.select_below(0.0, base.like(0.0), base);
-    if whole == 1 && !has_half {
-        return base;
-    }
     let mut square = base;
     let mut rest = whole;
     // The last bit of the exponent, and the half behind it, without a product by 1.
@@ -173,6 +174,15 @@ fn by_logarithm<L: Lanes>(base: L, exponent: &Exponent) -> L {
     let power = high.select_below(-LARGEST_EXPONENT, power.like(0.0), power);
     const LEAST: f64 = f64::from_bits(1);
     base.select_below(LEAST, power.like(0.0), power)
+}
+
+/// [`chain`] of each lane, once for each level.
+#[inline(never)]
+fn lanes_by_chain<S: Simd>(base: f64x8<S>, whole: u32, has_half: bool) -> f64x8<S> {
+    base.simd().vectorize(
+        #[inline(always)]
+        || chain(base, whole, has_half),
+    )
 }
 
 /// [`by_logarithm`] of each lane, once for each level: it is long, and wanted at many places.
