@@ -32,6 +32,20 @@ pub(crate) fn map_pieces<T: Sync, U: Send + Sync>(
     })
 }
 
+/// What `of` makes of each item, in their order.
+pub(crate) fn map_each<T: Sync, U: Clone + Default + Send>(
+    items: &[T],
+    of: impl Fn(&T) -> U + Sync,
+) -> Vec<U> {
+    // In place: joined from pieces, all of it would be in memory twice.
+    let mut made = vec![U::default(); items.len()];
+    change_all(&mut made, |index, made| {
+        *made = of(&items[index]);
+        true
+    });
+    made
+}
+
 /// Calls `change` for each item and its index. Returns whether all calls returned true; after one
 /// that did not, items may stay unchanged.
 pub(crate) fn change_all<T: Send>(
@@ -77,6 +91,12 @@ mod tests {
             let pieces = map_pieces(&items, <[usize]>::to_vec);
             assert_eq!(pieces.concat(), items);
         }
+    }
+
+    #[test]
+    fn each_item_is_mapped_in_its_place() {
+        let items: Vec<usize> = (0..2 * PIECE + 7).collect();
+        assert_eq!(map_each(&items, |item| *item), items);
     }
 
     #[test]

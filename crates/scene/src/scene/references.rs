@@ -33,11 +33,7 @@ impl Scene {
 /// The median of the distances from a point to the surfaces of spheres, the lower one of two; `None` where all are 0.
 fn median_distance(spheres: &[Sphere], point: DVec3) -> Option<f64> {
     let distance = |sphere: &Sphere| ((sphere.center() - point).length() - sphere.radius()).abs();
-    let mut distances = vec![0.0; spheres.len()];
-    parallel::change_all(&mut distances, |index, of_sphere| {
-        *of_sphere = distance(&spheres[index]);
-        true
-    });
+    let mut distances = parallel::map_each(spheres, distance);
     distances.retain(|&distance| distance > 0.0 && distance.is_finite());
     let middle = distances.len().checked_sub(1)? / 2;
     let (_, median, _) = distances.select_nth_unstable_by(middle, f64::total_cmp);

@@ -79,7 +79,8 @@ impl Range {
         let mut bits = Bits::new(bytes);
         let mut step = self.step;
         let mut run = 0;
-        let mut atoms = Vec::with_capacity(count);
+        // As many as the bytes bear out: damaged files tell of more.
+        let mut atoms = Vec::with_capacity(count.min(bytes.len()));
         while atoms.len() < count {
             let numbers = match are_one {
                 true => bits.triple(of_one, sizes)?,

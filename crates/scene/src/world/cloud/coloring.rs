@@ -256,12 +256,12 @@ impl Scale {
                 true => missing,
                 false => colors[usize::from(index(value))],
             };
-            let each = each(values, |value| color(value).as_vec3().to_array());
+            let each = parallel::map_each(values, |value| color(value).as_vec3().to_array());
             return Ok(Albedos::Each(each));
         }
         Ok(Albedos::Palette {
             colors,
-            indices: each(values, index),
+            indices: parallel::map_each(values, index),
         })
     }
 
@@ -343,19 +343,9 @@ impl Scale {
             .collect();
         Albedos::Palette {
             colors,
-            indices: each(&categories.indices, |index| names[*index as usize]),
+            indices: parallel::map_each(&categories.indices, |index| names[*index as usize]),
         }
     }
-}
-
-/// What `of` makes of each value.
-fn each<T: Sync, U: Clone + Default + Send>(values: &[T], of: impl Fn(&T) -> U + Sync) -> Vec<U> {
-    let mut made = vec![U::default(); values.len()];
-    parallel::change_all(&mut made, |index, made| {
-        *made = of(&values[index]);
-        true
-    });
-    made
 }
 
 /// The most colors that a scene file gives to categories: with those of `PALETTE` no more than a byte counts.

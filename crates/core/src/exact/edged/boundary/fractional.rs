@@ -324,4 +324,4 @@ fn chosen<S: Simd>(
 }
 
 #[cfg(test)]
-pub(super) mod tests;
+mod tests;

@@ -8,6 +8,7 @@ use fearless_simd::Simd;
 use super::chord::Chord;
 use super::primitive::{Lines, NEGLIGIBLE, Noise, Sender, Summed, greatest, ray};
 use super::turns::{Look, Seeker, Stops, Turn};
+use super::unseen::Unseen;
 use crate::exact::classify::active::Terminators;
 use crate::exact::edged::rule::{CAUTION, NODES, OF_ODD, RULE};
 use crate::exact::points::Points;
@@ -37,61 +38,6 @@ struct Search {
     looks: usize,
     /// Steps to a turn.
     steps: u32,
-}
-
-/// How far a value may go beyond zero where no line is.
-#[derive(Clone, Copy, Debug, Default)]
-struct Unseen {
-    between: f64,
-    at_ends: f64,
-}
-
-impl Unseen {
-    /// Adds what values at the same places of all lines tell.
-    #[inline(always)]
-    fn add(&mut self, values: &[f64; 8]) {
-        self.between = self.between.max(beyond_zero(values));
-        self.at_ends = self.at_ends.max(beyond_ends(values));
-    }
-}
-
-/// The distance beyond zero that a value may go between neighboring lines on which it has one sign: it is a smaller part of
-/// what the value changes by beside them than half. Then all lines miss what lies there, and their sums agree.
-#[inline(always)]
-fn beyond_zero(values: &[f64; 8]) -> f64 {
-    const NEAR: f64 = 0.5;
-    let step = |node: usize| (values[node] - values[node - 1]).abs();
-    let mut most = 0.0_f64;
-    for node in 1..NODES {
-        let (one, other) = (values[node - 1], values[node]);
-        if one * other > 0.0 {
-            let before = step((node - 1).max(1));
-            let after = step((node + 1).min(NODES - 1));
-            let change = step(node).max(before).max(after);
-            most = most.max(NEAR * change - one.abs().min(other.abs()));
-        }
-    }
-    most
-}
-
-/// How far a value may go beyond zero at either end of the lines if the outermost line is nearly the first to tell: it is
-/// smaller there than what it may still change by. Then a corner of light, or of darkness, that begins at this line, or
-/// behind it, is next to nothing in all sums.
-///
-/// The end is a fifth of a step behind the outermost line; values may bend.
-#[inline(always)]
-fn beyond_ends(values: &[f64; 8]) -> f64 {
-    const AHEAD: f64 = 0.4;
-    let mut most = 0.0_f64;
-    for (last, next) in [(0, 1), (NODES - 1, NODES - 2)] {
-        let (last, next) = (values[last], values[next]);
-        let change = AHEAD * (last - next).abs();
-        if last.abs() < change {
-            let has_begun = last * next < 0.0;
-            most = most.max(change + if has_begun { last.abs() } else { -last.abs() });
-        }
-    }
-    most
 }
 
 /// Into how many parts a chord on bumps is divided at most.

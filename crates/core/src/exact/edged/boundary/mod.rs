@@ -23,6 +23,8 @@ mod jumps;
 mod kinks;
 mod levels;
 mod lit;
+#[cfg(test)]
+mod lit_sphere;
 mod near_shadow;
 mod outlines;
 mod plain;
@@ -31,5 +33,6 @@ mod primitive;
 mod quadrature;
 mod setting;
 mod turns;
+mod unseen;
 
 pub(crate) use self::setting::{Boundary, Goal};
