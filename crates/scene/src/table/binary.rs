@@ -6,11 +6,13 @@ use std::io::{ErrorKind, Read};
 use super::array::Column;
 pub(crate) use super::columns::plan_of_kinds as plan;
 use super::columns::{Plan, Slot, Test};
+use super::contents::Contents;
 use super::element;
 use super::elements::Atom;
 use super::error::TableError;
 use super::input::Input;
 use super::kind::Kind;
+use super::paint::Paint;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows};
 use crate::parallel;
@@ -309,10 +311,8 @@ impl Block<'_> {
         rows.reserve((end - start) as u64)?;
         let mut numbers: Numbers = plan.constants;
         for row in start..end {
-            if !self
-                .filters()
-                .all(|(value, test)| self.meets(row, value, test))
-            {
+            let meets = |(value, test): (&Value<'_>, &Test)| self.meets(row, value, test);
+            if !plan.filters.is_empty() && !self.filters().all(meets) {
                 rows.read += 1;
                 continue;
             }
@@ -323,6 +323,12 @@ impl Block<'_> {
                 let bytes = value.at(row);
                 match value.slot {
                     Slot::Filter(_) => continue,
+                    Slot::Contents(column) => {
+                        if let Paint::Contents(all) = &mut rows.paint {
+                            self.look_at(&mut all[usize::from(column)], value, bytes);
+                        }
+                        continue;
+                    }
                     Slot::Value if plan.coloring == Coloring::Category => {
                         category = value.kind.text(bytes);
                         continue;
@@ -341,7 +347,10 @@ impl Block<'_> {
                 }
                 numbers[value.slot.index()] = number;
             }
-            let atom = atom(&label);
+            let atom = match of_element {
+                Some(_) => atom(&label),
+                None => Atom::NONE,
+            };
             if plan.has_element_categories {
                 category = Cow::Borrowed(plan.elements.name(atom));
             }
@@ -370,6 +379,21 @@ impl Block<'_> {
             }
         }
         Ok(rows)
+    }
+
+    /// Adds a value to the contents of its column.
+    fn look_at(&self, contents: &mut Contents, value: &Value<'_>, bytes: &[u8]) {
+        match value.kind {
+            Kind::Other(_) => *contents = Contents::Other,
+            kind if matches!(contents, Contents::Texts(_)) => {
+                let text = kind.text(bytes);
+                match self.plan.element_column == Some(value.column) {
+                    true => contents.add_text(self.plan.elements.name(atom(&text))),
+                    false => contents.add_text(&text),
+                }
+            }
+            kind => contents.add_number(kind.decode(bytes)),
+        }
     }
 
     /// The values that conditions are on.

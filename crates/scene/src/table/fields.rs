@@ -81,13 +81,17 @@ impl<'line> Fields<'line> {
 
     #[inline(always)]
     fn next_word(&mut self) -> Option<Range<usize>> {
-        let rest = &self.line[self.at..];
-        let start = rest.iter().position(|byte| !is_space(byte))?;
-        let length = rest[start..].iter().position(is_space);
-        let word =
-            self.at + start..length.map_or(self.line.len(), |length| self.at + start + length);
-        self.at = word.end;
-        Some(word)
+        let line = self.line;
+        let mut start = self.at;
+        while is_space(line.get(start)?) {
+            start += 1;
+        }
+        let mut end = start + 1;
+        while end < line.len() && !is_space(&line[end]) {
+            end += 1;
+        }
+        self.at = end;
+        Some(start..end)
     }
 
     #[inline(always)]
@@ -95,18 +99,19 @@ impl<'line> Fields<'line> {
         if self.is_at_end {
             return None;
         }
-        let start = self.at;
+        let (line, start) = (self.line, self.at);
         let mut end = start;
-        let mut is_quoted = false;
-        while end < self.line.len() && (is_quoted || self.line[end] != separator) {
-            is_quoted ^= self.line[end] == b'"';
+        while end < line.len() && line[end] != separator && line[end] != b'"' {
             end += 1;
         }
-        self.is_at_end = end == self.line.len();
+        if line.get(end) == Some(&b'"') {
+            end = end_of_quoted(line, end, separator);
+        }
+        self.is_at_end = end == line.len();
         self.at = end + 1;
-        let field = trimmed(self.line, start..end);
-        match self.line[field.clone()] {
-            [b'"', .., b'"'] => Some(trimmed(self.line, field.start + 1..field.end - 1)),
+        let field = trimmed(line, start..end);
+        match line[field.clone()] {
+            [b'"', .., b'"'] => Some(trimmed(line, field.start + 1..field.end - 1)),
             _ => Some(field),
         }
     }
@@ -198,6 +203,19 @@ pub(crate) fn all<'line>(line: &'line [u8], division: &Division) -> Vec<&'line [
         .collect()
 }
 
+/// The end of a field with a quotation mark at this place: separators between two marks do not end it.
+#[cold]
+fn end_of_quoted(line: &[u8], mark: usize, separator: u8) -> usize {
+    let mut end = mark;
+    let mut is_quoted = false;
+    while end < line.len() && (is_quoted || line[end] != separator) {
+        is_quoted ^= line[end] == b'"';
+        end += 1;
+    }
+    end
+}
+
+#[inline(always)]
 fn is_space(byte: &u8) -> bool {
     *byte == b' ' || *byte == b'\t'
 }

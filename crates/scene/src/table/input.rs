@@ -249,10 +249,13 @@ impl<'watch> Input<'watch> {
                 None => return Err(self.too_long()),
             },
         };
-        // A line has a byte at least.
+        // A line has a byte at least. Lines are counted in less time than their ends are found.
         if most < length as u64 {
-            let mut ends = memchr::memchr_iter(b'\n', &rest[..length]);
-            if let Some(end) = most.checked_sub(1).and_then(|last| ends.nth(last as usize)) {
+            let ends = memchr::memchr_iter(b'\n', &rest[..length]);
+            if most <= ends.clone().count() as u64
+                && let Some(last) = most.checked_sub(1)
+                && let Some(end) = ends.clone().nth(last as usize)
+            {
                 length = end + 1;
             }
         }

@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet, TryReserveError};
 
+use super::contents::Contents;
 use super::request::Coloring;
 
 /// The colors of a table's spheres.
@@ -19,6 +20,8 @@ pub(crate) enum Paint {
     Categories(Categories),
     /// None: these are the different numbers of a column.
     Distinct(Distinct),
+    /// None: these are the contents of the columns.
+    Contents(Vec<Contents>),
 }
 
 /// Different numbers, none of them NaN.
@@ -74,7 +77,7 @@ impl Categories {
     }
 
     /// Adds others behind these; returns whether there are too many names.
-    fn append(&mut self, others: Self) -> bool {
+    pub(super) fn append(&mut self, others: Self) -> bool {
         let names: Vec<Option<u32>> = others
             .names
             .iter()
@@ -87,8 +90,8 @@ impl Categories {
 }
 
 impl Paint {
-    /// The colors of no spheres.
-    pub(crate) fn new(coloring: Coloring) -> Self {
+    /// The colors of no spheres of a table with so many columns.
+    pub(crate) fn new(coloring: Coloring, columns: usize) -> Self {
         match coloring {
             Coloring::Material => Self::Material,
             Coloring::Table => Self::Colors(Vec::new()),
@@ -96,13 +99,14 @@ impl Paint {
             Coloring::Value => Self::Values(Vec::new()),
             Coloring::Category => Self::Categories(Categories::default()),
             Coloring::Distinct => Self::Distinct(Distinct::default()),
+            Coloring::Contents(texts) => Self::Contents(Contents::of_columns(columns, texts)),
         }
     }
 
     /// Makes room for so many more spheres.
     pub(crate) fn reserve(&mut self, more: usize) -> Result<(), TryReserveError> {
         match self {
-            Self::Material | Self::Distinct(_) => Ok(()),
+            Self::Material | Self::Distinct(_) | Self::Contents(_) => Ok(()),
             Self::Colors(colors) => colors.try_reserve_exact(more),
             Self::Elements(numbers) => numbers.try_reserve_exact(more),
             Self::Values(values) => values.try_reserve_exact(more),
@@ -113,7 +117,7 @@ impl Paint {
     /// Removes the colors of so many spheres at the start.
     pub(super) fn remove_first(&mut self, count: usize) {
         match self {
-            Self::Material | Self::Distinct(_) => {}
+            Self::Material | Self::Distinct(_) | Self::Contents(_) => {}
             Self::Colors(colors) => drop(colors.drain(..count)),
             Self::Elements(numbers) => drop(numbers.drain(..count)),
             Self::Values(values) => drop(values.drain(..count)),
@@ -129,6 +133,11 @@ impl Paint {
             (Self::Values(own), Self::Values(mut others)) => own.append(&mut others),
             (Self::Categories(own), Self::Categories(others)) => return own.append(others),
             (Self::Distinct(own), Self::Distinct(others)) => own.bits.extend(others.bits),
+            (Self::Contents(own), Self::Contents(others)) => {
+                own.iter_mut()
+                    .zip(others)
+                    .for_each(|(own, others)| own.append(others));
+            }
             _ => {}
         }
         false

@@ -189,7 +189,7 @@ impl Paint {
             }
         }
         match self {
-            Self::Material | Self::Distinct(_) => {}
+            Self::Material | Self::Distinct(_) | Self::Contents(_) => {}
             Self::Colors(colors) => more(colors, places),
             Self::Elements(numbers) => more(numbers, places),
             Self::Values(values) => more(values, places),

@@ -183,4 +183,7 @@ pub(crate) enum Coloring {
     /// None: only the different numbers of a column are wanted, and no spheres.
     #[serde(skip)]
     Distinct,
+    /// None: only the contents of the columns are wanted, and no spheres. Those whose bit is set have texts.
+    #[serde(skip)]
+    Contents(u64),
 }

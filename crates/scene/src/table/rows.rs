@@ -79,7 +79,7 @@ impl Rows {
             ends_with_row: false,
             spheres: Vec::new(),
             places: Vec::new(),
-            paint: Paint::new(plan.coloring),
+            paint: Paint::new(plan.coloring, plan.uses.len()),
             columns: Arc::clone(&plan.names.0),
             value_name: plan.value_name().map(str::to_owned),
             element_column: plan.element_column,
@@ -122,6 +122,9 @@ impl Rows {
         if plan.hides_missing && value.is_nan() {
             return Ok(Pushed::AsItIs);
         }
+        if let Paint::Contents(_) = &self.paint {
+            return Ok(Pushed::AsItIs);
+        }
         if let Paint::Distinct(numbers) = &mut self.paint {
             numbers.add(value);
             return Ok(Pushed::AsItIs);
@@ -158,7 +161,7 @@ impl Rows {
         }
         let sphere = Sphere::new(center, radius).map_err(|_| "a finite center and radius")?;
         match &mut self.paint {
-            Paint::Material | Paint::Distinct(_) => {}
+            Paint::Material | Paint::Distinct(_) | Paint::Contents(_) => {}
             Paint::Colors(colors) => {
                 let color = [Slot::Red, Slot::Green, Slot::Blue].map(number);
                 colors.push(color.map(|channel| plan.channel(channel)));
@@ -193,7 +196,7 @@ impl Rows {
         retain(&mut self.spheres, kept);
         retain(&mut self.places, kept);
         match &mut self.paint {
-            Paint::Material | Paint::Distinct(_) => {}
+            Paint::Material | Paint::Distinct(_) | Paint::Contents(_) => {}
             Paint::Colors(colors) => retain(colors, kept),
             Paint::Elements(numbers) => retain(numbers, kept),
             Paint::Values(values) => retain(values, kept),

@@ -19,6 +19,7 @@ mod cells_refused;
 mod collections;
 mod colors;
 mod compressed;
+mod contents;
 mod crystals;
 mod csv;
 mod cut;

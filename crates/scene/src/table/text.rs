@@ -3,12 +3,14 @@
 use std::ops::Range;
 
 use super::columns::{Plan, Slot, Test, Uses};
+use super::contents::Contents;
 use super::elements::Atom;
 use super::error::TableError;
 use super::fields::Fields;
 use super::form::{Form, LineKind, Rest};
 use super::input::{Input, without_return};
 use super::number::{is_missing, parse};
+use super::paint::Paint;
 use super::remarks::place_in_line;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows, is_point};
@@ -195,7 +197,7 @@ fn read_piece(text: &[u8], plan: &Plan, form: &Form, all_are_rows: bool) -> Piec
             (form.kind)(line)
         };
         piece.is_at_end = match kind {
-            LineKind::Row => is_of_another(line, form),
+            LineKind::Row => form.same.is_some() && is_of_another(line, form),
             LineKind::Other => false,
             LineKind::End => true,
         };
@@ -329,6 +331,12 @@ pub(super) fn read_line(
                 }
                 Slot::Value if plan.coloring == Coloring::Category => category = text,
                 Slot::Filter(_) => {}
+                Slot::Contents(index) => {
+                    if let Paint::Contents(all) = &mut rows.paint {
+                        let contents = &mut all[usize::from(*index)];
+                        look_at(contents, line, field.clone(), column, plan, form);
+                    }
+                }
                 slot => {
                     let mut value = parse(text, form.has_decimal_commas);
                     let is_value = matches!(slot, Slot::Value | Slot::Vector(_));
@@ -386,7 +394,38 @@ pub(super) fn read_line(
     }
 }
 
-/// The contents of a column, for messages.
+/// Adds a field to the contents of its column.
+#[inline(never)]
+fn look_at(
+    contents: &mut Contents,
+    line: &[u8],
+    field: Range<usize>,
+    column: usize,
+    plan: &Plan,
+    form: &Form,
+) {
+    let text = &line[field.clone()];
+    match contents {
+        Contents::Numbers(all) => {
+            let mut number = parse(text, form.has_decimal_commas);
+            if number.is_none() {
+                number = time::parse(text);
+                all.are_times |= number.is_some();
+            }
+            if number.is_none() && is_missing(text) {
+                number = Some(f64::NAN);
+            }
+            contents.add_number(number);
+        }
+        Contents::Texts(_) if plan.element_column == Some(column) => {
+            contents.add_text(plan.elements.name(form.atom(line, field)));
+        }
+        Contents::Texts(_) => contents.add_text(text),
+        Contents::NoNumbers | Contents::Other => {}
+    }
+}
+
+/// The kind of what is in a column, for messages.
 fn kind(uses: &Uses) -> &'static str {
     match uses.slots() {
         [] => "a value",

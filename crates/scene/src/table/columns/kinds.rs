@@ -30,13 +30,14 @@ pub(crate) fn plan_of_kinds(
     for (column, uses) in plan.uses.iter().enumerate() {
         let is_number = matches!(kind(column), Kind::Number(..));
         let may_be_text = |slot: &Slot| match slot {
-            Slot::Element => true,
+            Slot::Element | Slot::Contents(_) => true,
             Slot::Value => plan.coloring == Coloring::Category,
             Slot::Filter(filter) => plan.filters[usize::from(*filter)].text().is_some(),
             _ => false,
         };
         let is_good = is_number || kind(column).is_text() && uses.slots().iter().all(may_be_text);
-        if !uses.slots().is_empty() && !is_good {
+        let is_looked_at = matches!(uses.slots(), [Slot::Contents(_)]);
+        if !uses.slots().is_empty() && !is_good && !is_looked_at {
             let name = show(&plan.names.0[column]);
             return Err(format!(
                 "expected numbers in the column {name}, found something else"

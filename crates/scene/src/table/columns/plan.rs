@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
+use super::super::contents::MOST;
 use super::super::elements::Elements;
 use super::super::request::{Coloring, ColumnRef, Missing, RadiusLaw, Request, Value};
 use super::filter::Test;
@@ -199,6 +200,14 @@ impl Plan {
             }
             Coloring::Value | Coloring::Category | Coloring::Distinct => {
                 plan.take_value(request, nature)?;
+            }
+            Coloring::Contents(texts) => {
+                let of_element = plan.element_column.filter(|column| *column < MOST);
+                let of_element = of_element.map_or(0, |column| 1 << column);
+                plan.coloring = Coloring::Contents(texts | of_element);
+                for (column, index) in (0..plan.uses.len().min(MOST)).zip(0..) {
+                    plan.use_for(column, Slot::Contents(index));
+                }
             }
             Coloring::Table => {
                 for slot in colors {

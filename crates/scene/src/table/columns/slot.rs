@@ -18,6 +18,8 @@ pub(crate) enum Slot {
     Image(u8),
     /// Some condition is on it.
     Filter(u8),
+    /// Its contents are looked at; it is this column.
+    Contents(u8),
 }
 
 /// The numbers that are allowed.
@@ -50,8 +52,8 @@ impl Slot {
             Self::Green => 5,
             Self::Blue => 6,
             Self::Value => 7,
-            // No number of these two is held.
-            Self::Element | Self::Filter(_) => 8,
+            // No number of these is held.
+            Self::Element | Self::Filter(_) | Self::Contents(_) => 8,
             Self::Vector(component) => 9 + usize::from(component) % 3,
             Self::Image(axis) => 12 + usize::from(axis) % 3,
         }
@@ -96,7 +98,7 @@ impl Slot {
             Self::Image(0) => &["ix"],
             Self::Image(1) => &["iy"],
             Self::Image(_) => &["iz"],
-            Self::Vector(_) | Self::Filter(_) => &[],
+            Self::Vector(_) | Self::Filter(_) | Self::Contents(_) => &[],
         }
     }
 
@@ -105,7 +107,7 @@ impl Slot {
     pub(crate) fn refusal(self, number: f64, allowed: Allowed) -> Option<&'static str> {
         match self {
             Self::Value | Self::Vector(_) if allowed.may_miss && number.is_nan() => None,
-            Self::Filter(_) | Self::Element => None,
+            Self::Filter(_) | Self::Element | Self::Contents(_) => None,
             Self::Image(_) => (number.fract() != 0.0).then_some("a whole number of cells"),
             _ if !number.is_finite() => Some("a finite number"),
             Self::Radius if number <= 0.0 && !allowed.has_radius_law => {

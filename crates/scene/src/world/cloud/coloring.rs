@@ -162,7 +162,7 @@ impl Scale {
                 learned.categories.extend(used.map(|(name, _)| name));
                 learned.are_elements = true;
             }
-            Paint::Material | Paint::Colors(_) | Paint::Distinct(_) => {}
+            Paint::Material | Paint::Colors(_) | Paint::Distinct(_) | Paint::Contents(_) => {}
         }
     }
 
@@ -216,7 +216,7 @@ impl Scale {
         learned: &Learned,
     ) -> Result<Option<Albedos>, String> {
         Ok(match paint {
-            Paint::Material | Paint::Distinct(_) => None,
+            Paint::Material | Paint::Distinct(_) | Paint::Contents(_) => None,
             Paint::Colors(colors) => Some(Albedos::Each(colors)),
             Paint::Elements(indices) => Some(Albedos::Palette {
                 colors: self.element_colors(),

@@ -1,17 +1,15 @@
 //! The contents of the columns of a table.
 
-use glam::DVec3;
+use std::path::Path;
+use std::sync::Arc;
 
 use super::CloudError;
 use super::open::{OpenCloud, UNWATCHED};
 use super::step_rows::gone;
 use super::steps::Steps;
 use crate::table::{
-    Coloring, ColumnRef, Columns, Missing, Paint, Periodic, Request, TableError, Value, unit,
+    Coloring, ColumnRef, Columns, Contents, Paint, Periodic, Request, TableError, unit,
 };
-
-/// The most columns that are summed up: each is read on its own.
-const MOST_SUMMARIES: usize = 64;
 
 /// A column of a table.
 ///
@@ -91,89 +89,99 @@ pub enum ColumnContents {
 }
 
 impl ColumnContents {
-    fn of_numbers(values: &[f64], are_times: bool) -> Self {
-        let present = || values.iter().copied().filter(|value| !value.is_nan());
-        Self::Numbers {
-            low: present().fold(f64::INFINITY, f64::min),
-            high: present().fold(f64::NEG_INFINITY, f64::max),
-            missing: values.len() - present().count(),
-            are_times,
-        }
-    }
-
-    fn of_texts(paint: &Paint) -> Self {
+    fn of(contents: Contents) -> Self {
         const EXAMPLES: usize = 4;
-        match paint {
-            Paint::Categories(categories) => Self::Texts {
-                count: categories.names.len(),
-                examples: categories.names.iter().take(EXAMPLES).cloned().collect(),
+        match contents {
+            Contents::Numbers(numbers) => Self::Numbers {
+                low: numbers.low,
+                high: numbers.high,
+                missing: usize::try_from(numbers.missing).unwrap_or(usize::MAX),
+                are_times: numbers.are_times,
             },
-            _ => Self::Other,
+            Contents::Texts(mut texts) => {
+                let count = texts.names.len();
+                texts.names.truncate(EXAMPLES);
+                Self::Texts {
+                    count,
+                    examples: texts.names,
+                }
+            }
+            Contents::NoNumbers | Contents::Other => Self::Other,
         }
     }
 }
 
 impl OpenCloud {
     /// The contents of each column of the first step.
+    ///
+    /// The table is read once, and once more if a column has texts.
     pub(crate) fn columns(&self) -> Result<Vec<ColumnSummary>, CloudError> {
-        let request = |column: usize, coloring| Request {
+        let path = self.path(0);
+        let (names, contents) = match self.contents(&path) {
+            // A row that is not kept may have a fault.
+            Err(TableError::Fault(_)) => {
+                let (rows, _) = self.rows(0, UNWATCHED)?;
+                let others = vec![Contents::Other; rows.columns.len()];
+                (rows.columns, others)
+            }
+            read => read.map_err(|error| self.refuse_table(&path, error))?,
+        };
+        let columns = names.iter().zip(contents);
+        Ok(columns
+            .map(|(name, contents)| ColumnSummary {
+                name: name.clone(),
+                unit: unit(name).map(str::to_owned),
+                contents: ColumnContents::of(contents),
+            })
+            .collect())
+    }
+
+    /// The names of the columns, and what they hold.
+    fn contents(&self, path: &Path) -> Result<(Arc<Vec<String>>, Vec<Contents>), TableError> {
+        let (names, mut contents) = self.contents_with(path, 0)?;
+        let is_text = |contents: &Contents| *contents == Contents::NoNumbers;
+        let texts = (0..).zip(&contents);
+        let texts = texts.filter(|(_, contents)| is_text(contents));
+        let texts = texts.fold(0, |texts, (column, _)| texts | 1 << column);
+        if texts != 0 {
+            let (_, found) = self.contents_with(path, texts)?;
+            for (contents, found) in contents.iter_mut().zip(found) {
+                if is_text(contents) {
+                    *contents = found;
+                }
+            }
+        }
+        Ok((names, contents))
+    }
+
+    /// The same, where columns whose bit is set in `texts` have texts.
+    fn contents_with(
+        &self,
+        path: &Path,
+        texts: u64,
+    ) -> Result<(Arc<Vec<String>>, Vec<Contents>), TableError> {
+        let request = Request {
             radius: Some(1.0),
-            value: Some(Value::Column(ColumnRef::Number(column + 1))),
-            coloring: Some(coloring),
-            missing: Missing::Color(DVec3::ZERO),
+            value: None,
+            coloring: Some(Coloring::Contents(texts)),
             keep: Vec::new(),
             periodic: Periodic::default(),
-            // Of other columns nothing is looked at.
+            // Of positions nothing is looked at.
             columns: Columns {
                 position: [(); 3].map(|()| Some(ColumnRef::Constant(0.0))),
                 ..self.cloud.request.columns.clone()
             },
             ..self.cloud.request.clone()
         };
-        let path = self.path(0);
-        let refused = |error| self.refuse_table(&path, error);
-        let first = |request: &Request| {
-            let mut frames = self.open_file(&path, UNWATCHED)?;
-            self.observed.check(&path, &frames)?;
-            if let Steps::Frames(places) = &self.steps {
-                frames.go_to(places[0])?;
-            }
-            frames.read(request)?.ok_or_else(gone)
-        };
-        let (rows, _) = self.rows(0, UNWATCHED)?;
-        let names = rows.columns.iter().enumerate().take(MOST_SUMMARIES);
-        let summary = |(column, name): (usize, &String)| {
-            let unit = unit(name).map(str::to_owned);
-            let name = name.clone();
-            let is_element = rows.element_column == Some(column);
-            let coloring = match is_element {
-                true => Coloring::Category,
-                false => Coloring::Value,
-            };
-            let found = first(&request(column, coloring));
-            let contents = match found.map(|rows| (rows.paint, rows.has_times)) {
-                Ok((paint @ Paint::Categories(_), _)) => ColumnContents::of_texts(&paint),
-                Ok((Paint::Values(values), are_times)) => {
-                    ColumnContents::of_numbers(&values, are_times)
-                }
-                Ok(_) => ColumnContents::Other,
-                Err(TableError::Fault(_)) => match first(&request(column, Coloring::Category)) {
-                    Ok(rows) => ColumnContents::of_texts(&rows.paint),
-                    // Bytes that are neither.
-                    Err(TableError::Fault(_)) => ColumnContents::Other,
-                    Err(error) => return Err(error),
-                },
-                Err(error) => return Err(error),
-            };
-            Ok(ColumnSummary {
-                name,
-                unit,
-                contents,
-            })
-        };
-        names
-            .map(summary)
-            .collect::<Result<_, _>>()
-            .map_err(refused)
+        let mut frames = self.open_file(path, UNWATCHED)?;
+        self.observed.check(path, &frames)?;
+        if let Steps::Frames(places) = &self.steps {
+            frames.go_to(places[0])?;
+        }
+        let rows = frames.read(&request)?.ok_or_else(gone)?;
+        Ok(match rows.paint {
+            Paint::Contents(contents) => (rows.columns, contents),
+            _ => (rows.columns, Vec::new()),
+        })
     }
 }
