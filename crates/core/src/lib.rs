@@ -44,6 +44,8 @@ mod hit;
 mod light;
 mod model;
 mod numeric;
+#[doc(hidden)]
+pub mod parallel;
 mod picture;
 mod render;
 mod sampling;

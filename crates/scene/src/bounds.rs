@@ -3,7 +3,7 @@
 use glam::DVec3;
 use marbles_core::Sphere;
 
-use crate::parallel;
+use marbles_core::parallel;
 
 /// The box around spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -30,7 +30,6 @@ mod bounds;
 mod figure;
 mod file;
 mod motion;
-mod parallel;
 mod report;
 mod scene;
 mod table;

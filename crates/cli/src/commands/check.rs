@@ -8,7 +8,7 @@ mod tables;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Channels, Color, Light, LightFalloff, Sphere, View, World};
+use marbles_core::{Channels, Color, Light, LightFalloff, Sphere, View, World, parallel};
 use marbles_scene::{CellDescription, CloudDescription, FrameError, Scene};
 use serde_json::json;
 
@@ -30,7 +30,7 @@ const LIGHTS_LISTED: usize = 8;
 const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
-    threads::start(None)?.install(|| check(arguments, console))
+    parallel::install(&threads::start(None)?, || check(arguments, console))
 }
 
 fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {

@@ -1,7 +1,6 @@
 //! Warns if light is not much brighter than the tolerance: pixels may then have a visible error.
 
-use marbles_core::{Color, Light, World};
-use rayon::prelude::*;
+use marbles_core::{Color, Light, World, parallel};
 
 use crate::base::numbers::{bound, counted, short};
 
@@ -23,13 +22,15 @@ pub(super) fn warning(
         pictures += 1;
         let spheres = world.spheres().len();
         let is_bright = |sphere| tolerance <= LARGEST_PART * brightest(&world, sphere);
-        if (0..spheres).into_par_iter().any(is_bright) {
+        if parallel::any_index(spheres, is_bright) {
             continue;
         }
-        let all = (0..spheres)
-            .into_par_iter()
-            .map(|sphere| brightest(&world, sphere));
-        let most = all.reduce(|| 0.0, f64::max);
+        let of_ranges = parallel::map_ranges(spheres, |range| {
+            range
+                .map(|sphere| brightest(&world, sphere))
+                .fold(0.0, f64::max)
+        });
+        let most = of_ranges.into_iter().fold(0.0, f64::max);
         // Black is meant to be black.
         if most > 0.0 {
             dim += 1;

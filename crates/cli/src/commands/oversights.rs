@@ -4,8 +4,7 @@ mod eye;
 mod lights;
 mod sight;
 
-use marbles_core::{View, World};
-use rayon::prelude::*;
+use marbles_core::{View, World, parallel};
 
 pub(super) use self::lights::too_weak;
 use self::sight::may_be_seen;
@@ -32,7 +31,7 @@ pub(super) fn warnings(
         return vec!["the scene has no spheres: the picture shows only the background".to_owned()];
     }
     let mut warnings = Vec::new();
-    let is_empty = |view: &&View| !spheres.par_iter().any(|sphere| may_be_seen(sphere, view));
+    let is_empty = |view: &&View| !parallel::any(spheres, |sphere| may_be_seen(sphere, view));
     let shows_none = looked_at.iter().all(is_empty);
     if shows_none {
         warnings.push(

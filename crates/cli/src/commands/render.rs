@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use marbles_core::{Method, Settings, View};
+use marbles_core::{Method, Settings, View, parallel};
 use marbles_scene::Setting;
 use rayon::ThreadPool;
 
@@ -139,7 +139,7 @@ pub(super) fn request(
         options.set.insert(0, Setting::new("background", "1"));
     }
     let load = || scene::load_figure(path, &figure, &options, console, silent);
-    let scene = threads.install(load)?;
+    let scene = parallel::install(threads, load)?;
     if scene.frames().is_none()
         && let Err(error) = scene.view(FRAME_OF_A_STILL)
     {
@@ -220,14 +220,14 @@ fn check_view(
         scene::warn(&[warning], &request.scene_path, &arguments.options, console)?;
     }
     // Tables that cannot be read are told when their turn comes.
-    let Ok(world) = threads.install(|| scene.world_at(frame)) else {
+    let Ok(world) = parallel::install(threads, || scene.world_at(frame)) else {
         return Ok(());
     };
     // Of clouds that change, the world of the first frame is that of no other one.
     let most = if scene.has_steps() { 1 } else { FRAMES };
     let frames = request.frames.iter().take(most);
     let views: Vec<View> = frames.filter_map(|frame| scene.view(frame).ok()).collect();
-    let warnings = threads.install(|| {
+    let warnings = parallel::install(threads, || {
         let lights_move = scene.has_moving_lights();
         let mut warnings = oversights::warnings(&world, &views, frame, lights_move);
         if let Method::Tolerance(tolerance) = request.settings.method {

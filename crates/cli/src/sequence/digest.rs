@@ -7,9 +7,8 @@ use blake3::{Hash, Hasher};
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{
     Camera, Exposure, Grain, Highlight, Lens, Light, LightFalloff, Material, Method, Outline,
-    OutlineWidth, Pose, Roughness, Settings, Sphere, View, World,
+    OutlineWidth, Pose, Roughness, Settings, View, World, parallel,
 };
-use rayon::prelude::*;
 
 use crate::formats::center_channels::{CenterChannels, name_of};
 use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions, TiffOptions};
@@ -330,11 +329,11 @@ impl Feed {
 /// The hashes of groups of spheres, each with its material and its color, computed on the threads of the current rayon
 /// pool.
 pub(super) fn hashes_of_spheres(world: &World) -> Vec<Hash> {
-    let parts = world.spheres().par_chunks(SPHERES).enumerate();
-    let hash = |(part, spheres): (usize, &[Sphere])| {
+    let spheres = world.spheres();
+    parallel::map(spheres.len().div_ceil(SPHERES), |part| {
         let mut bytes = Vec::with_capacity(SPHERES * 36);
         let first = part * SPHERES;
-        for (index, sphere) in (first..).zip(spheres) {
+        for (index, sphere) in (first..).zip(&spheres[first..]).take(SPHERES) {
             let DVec3 { x, y, z } = sphere.center();
             for number in [x, y, z, sphere.radius()] {
                 bytes.extend_from_slice(&number.to_le_bytes());
@@ -347,8 +346,7 @@ pub(super) fn hashes_of_spheres(world: &World) -> Vec<Hash> {
             }
         }
         blake3::hash(&bytes)
-    };
-    parts.map(hash).collect()
+    })
 }
 
 #[cfg(test)]

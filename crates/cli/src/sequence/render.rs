@@ -1,5 +1,6 @@
 //! Renders a sequence with rendering threads, a writer thread, and a thread that reads clouds that change over time.
 
+use marbles_core::parallel;
 use std::panic;
 use std::sync::mpsc::sync_channel;
 use std::thread;
@@ -45,7 +46,7 @@ pub(crate) fn render(
                 writer::write_files(receiver, &pipeline)
             }
         })?;
-        threads.install(|| {
+        parallel::install(threads, || {
             let _closing = pipeline.buffer.closing();
             let mut source = Source::new(&pipeline, steps, sender);
             workers::run(|| source.next());

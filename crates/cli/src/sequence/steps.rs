@@ -8,7 +8,7 @@ use std::iter::Peekable;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
 
-use marbles_core::{Renderer, World};
+use marbles_core::{Renderer, World, parallel};
 use marbles_scene::{Scene, SceneError, StepKey};
 use rayon::ThreadPoolBuilder;
 use self_cell::self_cell;
@@ -230,7 +230,7 @@ impl ReaderTask {
         for frame in self.frames {
             let place = self.places.take();
             let world = match &own {
-                Ok(pool) => pool.install(|| scene.world_at(frame)),
+                Ok(pool) => parallel::install(pool, || scene.world_at(frame)),
                 Err(_) => scene.world_at(frame),
             };
             if self.worlds.send((world, place)).is_err() {

@@ -2,7 +2,7 @@
 
 use marbles_core::Sphere;
 
-use crate::parallel;
+use marbles_core::parallel;
 
 /// The radius of spheres without one, as a share of the typical distance to the nearest neighbor. Spheres at this
 /// distance leave a small gap.

@@ -8,8 +8,8 @@ use glam::DVec3;
 use marbles_core::Sphere;
 
 use super::Scene;
-use crate::parallel;
 use crate::report::SceneError;
+use marbles_core::parallel;
 
 impl Scene {
     /// Chooses the reference distances that the file does not name, by the lights and spheres of the first frame.

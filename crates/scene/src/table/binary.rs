@@ -15,8 +15,8 @@ use super::kind::Kind;
 use super::paint::Paint;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows};
-use crate::parallel;
 use crate::text::{LocatedFault, Place, show};
+use marbles_core::parallel;
 
 /// The arrangement of the values of a table.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! The contents of columns, where nothing else of a table is wanted.
 
-use super::paint::Categories;
+use super::categories::Categories;
 
 /// The most columns whose contents are looked at.
 pub(crate) const MOST: usize = u64::BITS as usize;

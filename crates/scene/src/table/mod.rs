@@ -10,6 +10,7 @@ mod atom_list;
 mod atom_style;
 mod binary;
 mod bzip2;
+mod categories;
 mod cell;
 mod cif;
 mod colormap;
@@ -73,6 +74,7 @@ mod xyz;
 mod xz;
 mod zstandard;
 
+pub(crate) use categories::Categories;
 pub(crate) use cell::Cell;
 pub(crate) use colormap::{Colormap, index as color_index};
 pub(crate) use columns::{MOST_FILTERS, Test, unit};
@@ -87,7 +89,7 @@ pub(crate) use file_state::FileState;
 pub(crate) use format::{ENDINGS, Format};
 pub(crate) use frames::{FramePlace, Frames};
 pub(crate) use other_file::OtherName;
-pub(crate) use paint::{Categories, Paint};
+pub(crate) use paint::Paint;
 pub(crate) use remarks::Remarks;
 pub(crate) use request::{
     Coloring, ColumnRef, Columns, Filter, Missing, Periodic, RadiusLaw, Request, Value, ValueRange,

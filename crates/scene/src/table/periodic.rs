@@ -8,7 +8,7 @@ use super::error::TableError;
 use super::paint::Paint;
 use super::request::Periodic;
 use super::rows::Rows;
-use crate::parallel;
+use marbles_core::parallel;
 
 /// The distance from a face at which a sphere lies on it, as a share of the edge that leads to the face.
 const ON_FACE: f64 = 1e-3;

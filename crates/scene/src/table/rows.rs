@@ -6,11 +6,12 @@ use std::sync::Arc;
 use glam::DVec3;
 use marbles_core::Sphere;
 
+use super::categories::Categories;
 use super::cell::ToldCell;
 use super::columns::{Plan, RadiusSource, Slot, ValueSource};
 use super::elements::{Atom, AtomRadius};
 use super::error::TableError;
-use super::paint::{Categories, Paint};
+use super::paint::Paint;
 use super::remarks::Remarks;
 use crate::text::LocatedFault;
 

@@ -15,8 +15,8 @@ use super::remarks::place_in_line;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows, is_point};
 use super::time;
-use crate::parallel;
 use crate::text::{LocatedFault, Place};
+use marbles_core::parallel;
 
 /// About how many bytes of text are one piece of work.
 const PIECE: usize = 1 << 18;

@@ -5,7 +5,7 @@ use marbles_core::{Angle, Sphere};
 
 use crate::bounds::Bounds;
 use crate::file::Up;
-use crate::parallel;
+use marbles_core::parallel;
 
 /// The steps by which a cloud is placed.
 #[derive(Clone, Copy, Debug)]

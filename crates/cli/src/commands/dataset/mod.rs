@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use marbles_core::{
     DirectionalLight, Light, LightPart, Method, PointLight, Renderer, Settings, View, World,
+    parallel,
 };
 use marbles_scene::Scene;
 use rayon::ThreadPool;
@@ -42,8 +43,9 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     }
     let pool = threads::start(arguments.threads)?;
     let silent = arguments.quiet || arguments.progress.is_some();
-    let scene =
-        pool.install(|| scene::load(&arguments.scene, &arguments.options, console, silent))?;
+    let scene = parallel::install(&pool, || {
+        scene::load(&arguments.scene, &arguments.options, console, silent)
+    })?;
     if scene.world().lights.is_empty() {
         return Err(Failure::unusable(
             &arguments.scene,
@@ -54,7 +56,7 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     let view = arguments.size.map_or(view, |size| size.resize(view));
     let lights = scene.lights(&view);
     let layout = Layout::new(arguments, &view, &lights)?;
-    let world = pool.install(|| scene::world(&scene, arguments.frame))?;
+    let world = parallel::install(&pool, || scene::world(&scene, arguments.frame))?;
     let gain = gain(&world, &lights);
     let request = request(arguments, scene, (&layout, lights.len()), gain)?;
     layout.refuse_files(&arguments.output, &request)?;
@@ -135,7 +137,7 @@ impl Layout {
         (world, pool): (&World, &ThreadPool),
     ) -> Result<(), Failure> {
         let renderer = || Renderer::new(world);
-        let centers = pool.install(|| Centers::of(&renderer(), view));
+        let centers = parallel::install(pool, || Centers::of(&renderer(), view));
         let folder = &arguments.output;
         let names = folder.join(PICTURES);
         let write_first = || {

@@ -1,8 +1,7 @@
 //! A camera inside a sphere, or on its surface.
 
 use glam::DVec3;
-use marbles_core::{Sphere, View, World};
-use rayon::prelude::*;
+use marbles_core::{Sphere, View, World, parallel};
 
 use crate::base::numbers::short;
 
@@ -23,7 +22,10 @@ pub(super) fn warning(world: &World, view: &View, frame: i32) -> Option<String> 
     }
     let spheres = world.spheres();
     let is_met = |sphere: &Sphere| place(sphere, view).is_some();
-    let index = spheres.par_iter().position_first(is_met)?;
+    if !parallel::any(spheres, is_met) {
+        return None;
+    }
+    let index = spheres.iter().position(is_met)?;
     let (number, radius) = (index + 1, short(spheres[index].radius()));
     Some(match place(&spheres[index], view)? {
         Place::Inside => format!(

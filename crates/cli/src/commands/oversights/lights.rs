@@ -3,8 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
-use marbles_core::{Color, Light, LightFalloff, Sphere, View, World};
-use rayon::prelude::*;
+use marbles_core::{Color, Light, LightFalloff, Sphere, View, World, parallel};
 
 use super::sight::may_be_seen;
 use crate::base::numbers::short;
@@ -25,15 +24,12 @@ pub(in super::super) fn too_weak(world: &World, tolerance: f64) -> Vec<String> {
         if is_averted.is_some() {
             return is_averted;
         }
-        let spheres = 0..world.spheres().len();
+        let spheres = world.spheres().len();
         let is_bright = |sphere: usize| added(world, light, sphere) > weak;
-        if spheres.clone().into_par_iter().any(is_bright) {
+        if parallel::any_index(spheres, is_bright) {
             return None;
         }
-        let all = spheres
-            .into_par_iter()
-            .map(|sphere| (added(world, light, sphere), sphere));
-        let (most, sphere) = all.max_by(|one, other| one.0.total_cmp(&other.0))?;
+        let (most, sphere) = largest(spheres, |sphere| added(world, light, sphere))?;
         (most > 0.0).then(|| told(index + 1, light, most, &world.spheres()[sphere]))
     });
     warnings.collect()
@@ -43,14 +39,12 @@ pub(in super::super) fn too_weak(world: &World, tolerance: f64) -> Vec<String> {
 fn averted(number: usize, light: &Light, spheres: &[Sphere]) -> Option<String> {
     let lamp = light.point()?;
     let direction = lamp.emission()?.direction();
-    let all = spheres
-        .par_iter()
-        .map(|sphere| (ahead(sphere, lamp.position(), direction), sphere));
-    let (most, nearest) = all.max_by(|one, other| one.0.total_cmp(&other.0))?;
+    let ahead = |sphere: usize| ahead(&spheres[sphere], lamp.position(), direction);
+    let (most, nearest) = largest(spheres.len(), ahead)?;
     if most > 0.0 || light.intensity() == Color::ZERO {
         return None;
     }
-    let way = nearest.center() - lamp.position();
+    let way = spheres[nearest].center() - lamp.position();
     let [x, y, z] = (way / way.abs().max_element())
         .to_array()
         .map(|part| short(part + 0.0));
@@ -58,6 +52,17 @@ fn averted(number: usize, light: &Light, spheres: &[Sphere]) -> Option<String> {
         "light {number} faces away from all spheres: `direction` points from the lamp to what it lights, so try \
          `direction: ({x}, {y}, {z})`"
     ))
+}
+
+/// The largest number of those of `count` spheres, and the index of its sphere.
+fn largest(count: usize, of: impl Fn(usize) -> f64 + Sync) -> Option<(f64, usize)> {
+    let of_numbers = |numbers: &mut dyn Iterator<Item = (f64, usize)>| {
+        numbers.max_by(|one, other| one.0.total_cmp(&other.0))
+    };
+    let of_ranges = parallel::map_ranges(count, |range| {
+        of_numbers(&mut range.map(|sphere| (of(sphere), sphere)))
+    });
+    of_numbers(&mut of_ranges.into_iter().flatten())
 }
 
 /// How far a sphere reaches ahead of the plane through a point across a unit vector.
@@ -104,16 +109,17 @@ pub(super) fn behind(world: &World, views: &[&View]) -> Option<String> {
     let is_lit = |sphere: &Sphere, view: &View| {
         may_be_seen(sphere, view) && share_lit(world, sphere, view) > THIN
     };
-    let any_is_lit = |view: &&View| spheres.par_iter().any(|sphere| is_lit(sphere, view));
+    let any_is_lit = |view: &&View| parallel::any(spheres, |sphere| is_lit(sphere, view));
     if views.iter().any(any_is_lit) {
         return None;
     }
     let most_in = |view: &&View| {
-        let seen = spheres
-            .par_iter()
-            .filter(|sphere| may_be_seen(sphere, view));
-        let shares = seen.map(|sphere| share_lit(world, sphere, view));
-        shares.reduce(|| 0.0, f64::max)
+        let of_pieces = parallel::map_pieces(spheres, |piece| {
+            let seen = piece.iter().filter(|sphere| may_be_seen(sphere, view));
+            let shares = seen.map(|sphere| share_lit(world, sphere, view));
+            shares.fold(0.0, f64::max)
+        });
+        of_pieces.into_iter().fold(0.0, f64::max)
     };
     let percent = 100.0 * views.iter().map(most_in).fold(0.0, f64::max);
     let rest = match world.ambient.max_element() > 0.0 {

@@ -20,6 +20,7 @@ use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 use crate::terminal::keyboard::Keyboard;
 use crate::terminal::progress::Progress;
+use marbles_core::parallel;
 
 /// The number of lines left free for the shell's prompt.
 const PROMPT_LINES: u32 = 2;
@@ -33,19 +34,20 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
     }
     let threads = threads::start(None)?;
     if arguments.watch {
-        return threads.install(|| watch::run(arguments, &screen, console));
+        return parallel::install(&threads, || watch::run(arguments, &screen, console));
     }
     if screen.is_terminal && !arguments.once && Keyboard::is_there() {
-        return threads.install(|| hand::run(arguments, &screen, console));
+        return parallel::install(&threads, || hand::run(arguments, &screen, console));
     }
-    let scene =
-        threads.install(|| scene::load(&arguments.scene, &arguments.options, console, false))?;
+    let scene = parallel::install(&threads, || {
+        scene::load(&arguments.scene, &arguments.options, console, false)
+    })?;
     let view = scene::view(&scene, &arguments.scene, arguments.frame)?;
     let view = screen.area(PROMPT_LINES).fit(Size::of(&view)).resize(view);
     interrupt::listen(console);
     let progress = Progress::new(console, None, false, 1);
     progress.begin(0, Size::of(&view).pixels());
-    let world = threads.install(|| scene::world(&scene, arguments.frame))?;
+    let world = parallel::install(&threads, || scene::world(&scene, arguments.frame))?;
     let render = || {
         render(
             (&scene, &world),
@@ -54,7 +56,7 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
             Some(&progress),
         )
     };
-    let picture = threads.install(render);
+    let picture = parallel::install(&threads, render);
     progress.finish();
     let Ok(picture) = picture else {
         return Ok(status::INTERRUPTED);

@@ -14,7 +14,7 @@ mod results;
 mod row;
 mod table;
 
-use marbles_core::{Channels, Renderer};
+use marbles_core::{Channels, Renderer, parallel};
 
 use self::measure::Plan;
 use self::progress::Progress;
@@ -38,7 +38,9 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     let plot = arguments.plot.as_deref();
     plot.map_or(Ok(()), |plot| check_name("--plot", "plots", plot))?;
     let pool = threads::start(arguments.threads)?;
-    pool.install(|| report(arguments, pool.current_num_threads(), console))
+    parallel::install(&pool, || {
+        report(arguments, pool.current_num_threads(), console)
+    })
 }
 
 /// Measures on the threads of the current pool.

@@ -8,7 +8,7 @@ use std::io::{BufWriter, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use marbles_core::Renderer;
+use marbles_core::{Renderer, parallel};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
@@ -29,7 +29,7 @@ use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8, Failure> {
     let pool = threads::start(arguments.threads)?;
-    let scene = pool.install(|| {
+    let scene = parallel::install(&pool, || {
         scene::load(
             &arguments.scene,
             &arguments.options,
@@ -112,18 +112,18 @@ impl Table<'_> {
         let same_step =
             |one: &i32, other: &i32| self.scene.steps_at(*one) == self.scene.steps_at(*other);
         for frames in frames.chunk_by(same_step) {
-            let world = self.pool.install(|| scene::world_of(self.scene, frames[0]));
+            let world = parallel::install(self.pool, || scene::world_of(self.scene, frames[0]));
             let world = world.map_err(Fault::Failed)?;
-            let renderer = self.pool.install(|| Renderer::new(&world));
+            let renderer = parallel::install(self.pool, || Renderer::new(&world));
             count.get_or_insert(world.spheres().len());
             for &frame in frames {
                 // All of them were looked at before.
                 let view = self.scene.view(frame);
                 let view = view.map_err(|error| Fault::Encoding(error.to_string()))?;
                 let view = self.size.map_or(view, |size| size.resize(view));
-                let measured = self
-                    .pool
-                    .install(|| renderer.visible_areas(&view, self.tolerance, &go_on));
+                let measured = parallel::install(self.pool, || {
+                    renderer.visible_areas(&view, self.tolerance, &go_on)
+                });
                 let areas = measured.map_err(|_| Fault::Stopped)?;
                 let spheres = world.spheres().iter();
                 for (id, (sphere, visible)) in spheres.zip(&areas).enumerate() {

@@ -34,7 +34,7 @@ const MOST_BYTES: u64 = 1 << 28;
 const MOST_FOR_A_BYTE: u64 = 1032;
 
 /// Reads the header of a file, up to its blocks.
-pub(super) fn meta_of(file: &mut impl Input) -> Result<MetaData, String> {
+pub(super) fn meta_of(file: &mut Box<dyn Input>) -> Result<MetaData, String> {
     guarded(|| MetaData::read_from_buffered(file, false))
 }
 

@@ -7,6 +7,7 @@ use exr::meta::BlockDescription;
 use exr::meta::header::Header;
 
 use super::block_reader::{BlockReader, meta_of};
+use crate::formats::source::Input;
 
 /// A file that is being read, whose first part has blocks of whole rows.
 pub(crate) struct Rows {
@@ -19,7 +20,7 @@ pub(crate) struct Rows {
 
 impl Rows {
     pub(crate) fn begin(file: File) -> Result<Self, String> {
-        let mut file = Box::new(BufReader::new(file));
+        let mut file: Box<dyn Input> = Box::new(BufReader::new(file));
         let meta = meta_of(&mut file)?;
         let blocks = BlockReader::of_part(file, meta, 0)?;
         if blocks.header().blocks != BlockDescription::ScanLines {

@@ -7,13 +7,14 @@ use png::{DecodingError, Reader};
 
 use super::decoder::decoder;
 use super::shape::Shape;
+use crate::formats::source::Input;
 
 /// A file that is being read.
-pub(crate) struct Rows(Reader<BufReader<File>>);
+pub(crate) struct Rows(Reader<Box<dyn Input>>);
 
 impl Rows {
     pub(crate) fn begin(file: File) -> Result<Self, DecodingError> {
-        let reader = decoder(BufReader::new(file)).read_info();
+        let reader = decoder(Box::new(BufReader::new(file))).read_info();
         reader.map(Self)
     }
 

@@ -30,7 +30,7 @@ pub(crate) fn contents(file: &mut (impl BufRead + Seek)) -> Result<(Hash, Region
 
 /// Reads a file up to its last chunk.
 fn read(file: impl BufRead + Seek) -> Result<Option<(Hash, Region)>, DecodingError> {
-    let mut reader = strict_decoder(file).read_info()?;
+    let mut reader = strict_decoder(Box::new(file)).read_info()?;
     let told = told(reader.info());
     while reader.next_row()?.is_some() {}
     reader.finish()?;
@@ -55,7 +55,7 @@ fn told(info: &Info<'_>) -> Option<(Hash, Region)> {
 pub(crate) fn text(path: &Path, keyword: &str) -> Option<String> {
     // A pipe could be waited for without end.
     let file = path.is_file().then(|| File::open(path).ok())??;
-    let reader = decoder(BufReader::new(file)).read_info().ok()?;
+    let reader = decoder(Box::new(BufReader::new(file))).read_info().ok()?;
     let mut texts = reader.info().uncompressed_latin1_text.iter();
     let found = texts.find(|text| text.keyword == keyword);
     found.map(|found| found.text.clone())

@@ -127,7 +127,7 @@ fn store(
     texts: &[Text],
 ) -> Result<(), Fault> {
     from.seek(SeekFrom::Start(0))?;
-    let mut reader = decoder(BufReader::with_capacity(CHUNK_BYTES, from)).read_info()?;
+    let mut reader = decoder(Box::new(BufReader::with_capacity(CHUNK_BYTES, from))).read_info()?;
     write_with(to, shape, texts, Compression::NoCompression, |stream| {
         while let Some(row) = reader.next_row()? {
             stream.write_all(row.data())?;

@@ -1,6 +1,7 @@
 use std::num::NonZeroU32;
 use std::path::Path;
 
+use marbles_core::Sphere;
 use marbles_scene::Scene;
 
 use super::*;

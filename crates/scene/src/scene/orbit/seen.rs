@@ -2,7 +2,7 @@
 
 use marbles_core::{Ray, Sphere, View};
 
-use crate::parallel;
+use marbles_core::parallel;
 
 /// The number of columns of rays in the middle of the picture.
 const COLUMNS: u32 = 9;

@@ -1,18 +1,20 @@
 //! Loops on the threads of the current rayon pool.
 //!
-//! Each iterator of rayon is compiled anew; these loops share one.
+//! Each iterator of rayon is compiled anew, and each kind of work that a pool is given; these share one.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use rayon::ThreadPool;
 use rayon::prelude::*;
 
 /// Items that a thread takes at once.
 const PIECE: usize = 1 << 10;
 
 /// The results of `map` for all indices below `count`, in their order.
-pub(crate) fn map<T: Send + Sync>(count: usize, map: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub fn map<T: Send + Sync>(count: usize, map: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let results: Vec<OnceLock<T>> = (0..count).map(|_| OnceLock::new()).collect();
     run(count, &|index| {
         results[index].get_or_init(|| map(index));
@@ -21,19 +23,57 @@ pub(crate) fn map<T: Send + Sync>(count: usize, map: impl Fn(usize) -> T + Sync)
     results.filter_map(OnceLock::into_inner).collect()
 }
 
+/// Runs `work` on the threads of a pool.
+pub fn install<T: Send>(pool: &ThreadPool, work: impl FnOnce() -> T + Send) -> T {
+    let (mut work, mut result) = (Some(work), None);
+    install_any(pool, &mut || result = work.take().map(|work| work()));
+    match result {
+        Some(result) => result,
+        None => unreachable!("the pool has run the work"),
+    }
+}
+
+fn install_any(pool: &ThreadPool, work: &mut (dyn FnMut() + Send)) {
+    pool.install(work);
+}
+
 /// The results of `map` for the pieces of a slice, in their order.
-pub(crate) fn map_pieces<T: Sync, U: Send + Sync>(
+pub fn map_pieces<T: Sync, U: Send + Sync>(
     items: &[T],
     of_piece: impl Fn(&[T]) -> U + Sync,
 ) -> Vec<U> {
-    map(items.len().div_ceil(PIECE), |index| {
-        let start = index * PIECE;
-        of_piece(&items[start..items.len().min(start + PIECE)])
-    })
+    map_ranges(items.len(), |indices| of_piece(&items[indices]))
+}
+
+/// The results of `of` for ranges that cover the indices below `count`, in their order.
+pub fn map_ranges<T: Send + Sync>(count: usize, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    map(count.div_ceil(PIECE), |piece| of(piece_at(piece, count)))
+}
+
+/// The indices of a piece, of those below `count`.
+fn piece_at(piece: usize, count: usize) -> Range<usize> {
+    piece * PIECE..count.min((piece + 1) * PIECE)
+}
+
+/// Returns whether `is` is true of any item. After one of which it is, others may not be asked.
+pub fn any<T: Sync>(items: &[T], is: impl Fn(&T) -> bool + Sync) -> bool {
+    any_index(items.len(), |index| is(&items[index]))
+}
+
+/// The same for the indices below `count`.
+pub fn any_index(count: usize, is: impl Fn(usize) -> bool + Sync) -> bool {
+    let is_any = AtomicBool::new(false);
+    run(count.div_ceil(PIECE), &|piece| {
+        let mut indices = piece_at(piece, count);
+        if !is_any.load(Ordering::Relaxed) && indices.any(&is) {
+            is_any.store(true, Ordering::Relaxed);
+        }
+    });
+    is_any.into_inner()
 }
 
 /// What `of` makes of each item, in their order.
-pub(crate) fn map_each<T: Sync, U: Clone + Default + Send>(
+pub fn map_each<T: Sync, U: Clone + Default + Send>(
     items: &[T],
     of: impl Fn(&T) -> U + Sync,
 ) -> Vec<U> {
@@ -48,10 +88,7 @@ pub(crate) fn map_each<T: Sync, U: Clone + Default + Send>(
 
 /// Calls `change` for each item and its index. Returns whether all calls returned true; after one
 /// that did not, items may stay unchanged.
-pub(crate) fn change_all<T: Send>(
-    items: &mut [T],
-    change: impl Fn(usize, &mut T) -> bool + Sync,
-) -> bool {
+pub fn change_all<T: Send>(items: &mut [T], change: impl Fn(usize, &mut T) -> bool + Sync) -> bool {
     let pieces: Vec<_> = items.chunks_mut(PIECE).map(Mutex::new).collect();
     let is_good = AtomicBool::new(true);
     run(pieces.len(), &|index| {
@@ -91,6 +128,29 @@ mod tests {
             let pieces = map_pieces(&items, <[usize]>::to_vec);
             assert_eq!(pieces.concat(), items);
         }
+    }
+
+    #[test]
+    fn any_item_is_found() {
+        let items: Vec<usize> = (0..3 * PIECE + 5).collect();
+        for place in [0, PIECE - 1, PIECE, items.len() - 1] {
+            assert!(any(&items, |item| *item == place));
+        }
+        assert!(!any(&items, |item| *item == items.len()));
+        assert!(!any_index(0, |_| true));
+    }
+
+    #[test]
+    fn work_runs_in_a_pool_and_returns() {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(3)
+            .build()
+            .unwrap();
+        let text = String::from("7");
+        assert_eq!(install(&pool, || text + "!"), "7!");
+        assert_eq!(install(&pool, rayon::current_num_threads), 3);
+        let panics = std::panic::AssertUnwindSafe(|| install(&pool, || panic!("as it does here")));
+        assert!(std::panic::catch_unwind(panics).is_err());
     }
 
     #[test]
