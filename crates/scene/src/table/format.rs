@@ -172,10 +172,8 @@ impl Format {
     /// Says whether a table of this format may tell a cell.
     pub(crate) fn may_have_cell(self) -> bool {
         match self {
-            // The boxes of data files are not read.
             Self::Csv
             | Self::Text
-            | Self::LammpsData
             | Self::Mol2
             | Self::Npy
             | Self::Npz
@@ -188,6 +186,7 @@ impl Format {
             | Self::Gro
             | Self::Gsd
             | Self::Lammps
+            | Self::LammpsData
             | Self::MmCif
             | Self::Pdb
             | Self::Pqr

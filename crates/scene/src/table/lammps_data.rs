@@ -10,6 +10,7 @@ use super::fields::{self, Division};
 use super::form::{AtomType, Form, LineKind, Rest, of_table};
 use super::header::Header;
 use super::input::{Input, without_return};
+use super::lammps_box::SimulationBox;
 use super::number::parse;
 use crate::text::{LocatedFault, list};
 
@@ -54,6 +55,7 @@ struct Said {
     names: Vec<TypeName>,
     /// The names are the labels of types.
     has_labels: bool,
+    cell: SimulationBox,
 }
 
 /// The name of a type.
@@ -92,8 +94,8 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Header, TableError> {
                 return atoms(input, &said, count, (number, &line));
             }
             [b"Velocities"] => input.leave_out(unread_velocities(number, &line)),
-            // The box, other counts and other sections.
-            _ => {}
+            // The box, or other counts and other sections.
+            ref words => said.cell.read(words, (number, &line)),
         }
     }
 }
@@ -236,6 +238,7 @@ fn atoms(
     let names = names.into_iter().map(str::to_owned).collect();
     Ok(Header {
         count: Some((count, "atoms, according to the start of the file")),
+        cell: said.cell.cell(),
         close: |input, ends_with_row| close(input, ends_with_row).map(|()| None),
         ..Header::new(names, form, (number, line))
     })

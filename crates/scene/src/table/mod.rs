@@ -39,6 +39,7 @@ mod header;
 mod input;
 mod kind;
 mod lammps;
+mod lammps_box;
 mod lammps_data;
 mod mmcif;
 mod mol2;

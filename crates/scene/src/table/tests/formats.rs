@@ -286,7 +286,8 @@ fn legacy_vtk_is_read_as_text_and_as_bytes() {
     assert_eq!(spheres(&scene("a.vtk", &binary, "")), TWO);
     assert_eq!(
         refusal("a.vtk", text.replace("POLYDATA", "STRUCTURED_POINTS"), ""),
-        "a.vtk:4:1: expected a dataset of points: POLYDATA, UNSTRUCTURED_GRID or STRUCTURED_GRID, found `DATASET STRUCTURED_POINTS`"
+        "a.vtk:4:1: expected a dataset of points: POLYDATA, UNSTRUCTURED_GRID or STRUCTURED_GRID (ParaView saves the points of \
+         others as CSV, by File > Save Data), found `DATASET STRUCTURED_POINTS`"
     );
     let message = refusal(
         "a.vtk",

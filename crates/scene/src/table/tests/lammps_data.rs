@@ -199,3 +199,35 @@ fn broken_data_files_are_refused_at_their_lines() {
         "a.data:24: the file ends within this line: its last number may have been cut off"
     );
 }
+
+#[test]
+fn boxes_are_those_of_dumps() {
+    let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS xy xz yz pp pp pp\n-5 6.5 1 -0.5 0.25\n\
+                0 9.25 0.5 0 0\n0 9 0.25 0 0\nITEM: ATOMS id type x y z ix iy iz\n1 1 1 2 3 0 -1 2\n2 2 4 5 6 1 0 0\n"
+        .replace("-5 6.5 1 -0.5 0.25\n0 9.25 0.5 0 0\n0 9 0.25 0 0", "-5.5 6 1\n0 9.25 -0.5\n0 9 0.25");
+    let rows = "1 1 1 2 3 0 -1 2\n2 2 4 5 6 1 0 0\n";
+    let tilted =
+        data("Atoms # atomic", rows).replace("0 9 zlo zhi", "0 9 zlo zhi\n1 -0.5 0.25 xy xz yz");
+    let vectors = data("Atoms # atomic", rows).replace(
+        "-5.0 5 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi",
+        "10 0 0 avec\n1 9 0 bvec\n-0.5 0.25 9 cvec\n-5 0 0 abc origin",
+    );
+    for fields in [
+        "radius: 1, repeat: (2, 1, 3)",
+        "radius: 1, unwrap: true",
+        "radius: 1, wrap: true, position: (1, 2, 3)",
+    ] {
+        let expected = spheres(&scene("a.dump", &dump, fields));
+        assert_ne!(expected, spheres(&scene("a.dump", &dump, "radius: 1")));
+        for (text, what) in [(&tilted, "bounds"), (&vectors, "vectors")] {
+            let found = spheres(&scene("a.data", text, fields));
+            assert_eq!(found, expected, "{what}, {fields}");
+        }
+    }
+    let flat = tilted.replace("0 9 zlo zhi", "0 0 zlo zhi");
+    let message = refusal("a.data", &flat, "radius: 1, repeat: (1, 2, 1)");
+    let expected = "a.data:7:1: expected a cell of three finite edges that span a volume, found one without a volume";
+    assert_eq!(message, expected);
+    // Whoever asks for no cell may have one without a volume.
+    assert_eq!(spheres(&scene("a.data", &flat, "radius: 1")).len(), 2);
+}

@@ -52,7 +52,8 @@ impl Dataset {
             ] => {}
             [b"DATASET", ..] => {
                 return Err(refuse(
-                    "a dataset of points: POLYDATA, UNSTRUCTURED_GRID or STRUCTURED_GRID",
+                    "a dataset of points: POLYDATA, UNSTRUCTURED_GRID or STRUCTURED_GRID (ParaView saves the points of \
+                     others as CSV, by File > Save Data)",
                 ));
             }
             [b"POINTS", points, kind] => {

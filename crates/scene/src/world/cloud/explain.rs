@@ -39,7 +39,7 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
         TableError::NoCell(field) => {
             return format!(
                 "expected a table with a cell for `{field}`, found none in {shown} (extended XYZ with `Lattice`, PDB, CIF, \
-                 GRO, POSCAR, trajectories and dumps of LAMMPS have one)"
+                 GRO, POSCAR, trajectories, dumps and data files of LAMMPS have one)"
             );
         }
         TableError::Changed => {
