@@ -117,7 +117,8 @@ fn escaped(text: &str) -> String {
 fn fitted(command: clap::Command, columns: usize) -> clap::Command {
     let command = match command.get_after_help() {
         Some(help) => {
-            let help = lay_out(&help.to_string(), columns);
+            // It has no colors that would have to be taken away, which takes milliseconds.
+            let help = lay_out(&help.ansi().to_string(), columns);
             command.after_help(help)
         }
         None => command,
