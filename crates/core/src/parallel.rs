@@ -1,6 +1,7 @@
 //! Loops on the threads of the current rayon pool.
 //!
 //! Each iterator of rayon is compiled anew, and each kind of work that a pool is given; these share one.
+//! It is for the crates of this workspace, and no part of the interface of this one.
 
 use std::ops::Range;
 use std::sync::OnceLock;

@@ -1,9 +1,7 @@
 //! The box around spheres.
 
 use glam::DVec3;
-use marbles_core::Sphere;
-
-use marbles_core::parallel;
+use marbles_core::{Sphere, parallel};
 
 /// The box around spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! Renders a sequence with rendering threads, a writer thread, and a thread that reads clouds that change over time.
 
-use marbles_core::parallel;
 use std::panic;
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
+use marbles_core::parallel;
 use rayon::ThreadPool;
 
 use super::outcome::Outcome;

@@ -1,8 +1,6 @@
 //! The typical distance between neighboring points, from which spheres without radii get one.
 
-use marbles_core::Sphere;
-
-use marbles_core::parallel;
+use marbles_core::{Sphere, parallel};
 
 /// The radius of spheres without one, as a share of the typical distance to the nearest neighbor. Spheres at this
 /// distance leave a small gap.

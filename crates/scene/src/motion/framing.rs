@@ -19,10 +19,9 @@
 use std::f64::consts::PI;
 
 use glam::{DMat3, DVec2, DVec3};
-use marbles_core::{Angle, Camera, Lens, Sphere};
+use marbles_core::{Angle, Camera, Lens, Sphere, parallel};
 
 use crate::bounds::Bounds;
-use marbles_core::parallel;
 
 /// The axes of an orbiting camera with this azimuth, elevation and roll in degrees, in the world.
 pub(crate) fn axes_of_orbit(degrees: [f64; 3]) -> DMat3 {

@@ -5,11 +5,10 @@
 //! center is far away, counts as no more than one of them.
 
 use glam::DVec3;
-use marbles_core::Sphere;
+use marbles_core::{Sphere, parallel};
 
 use super::Scene;
 use crate::report::SceneError;
-use marbles_core::parallel;
 
 impl Scene {
     /// Chooses the reference distances that the file does not name, by the lights and spheres of the first frame.

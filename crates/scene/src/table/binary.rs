@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::io::{ErrorKind, Read};
 
+use marbles_core::parallel;
+
 use super::array::Column;
 pub(crate) use super::columns::plan_of_kinds as plan;
 use super::columns::{Plan, Slot, Test};
@@ -16,7 +18,6 @@ use super::paint::Paint;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows};
 use crate::text::{LocatedFault, Place, show};
-use marbles_core::parallel;
 
 /// The arrangement of the values of a table.
 #[derive(Clone, Debug)]

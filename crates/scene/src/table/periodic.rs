@@ -1,14 +1,13 @@
 //! The cells that a scene shows of a periodic table: repeats, and spheres that are moved or shown at several faces.
 
 use glam::DVec3;
-use marbles_core::Sphere;
+use marbles_core::{Sphere, parallel};
 
 use super::cell::Cell;
 use super::error::TableError;
 use super::paint::Paint;
 use super::request::Periodic;
 use super::rows::Rows;
-use marbles_core::parallel;
 
 /// The distance from a face at which a sphere lies on it, as a share of the edge that leads to the face.
 const ON_FACE: f64 = 1e-3;

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use marbles_core::parallel;
+
 use super::columns::{Plan, Slot, Test, Uses};
 use super::contents::Contents;
 use super::elements::Atom;
@@ -16,7 +18,6 @@ use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows, is_point};
 use super::time;
 use crate::text::{LocatedFault, Place};
-use marbles_core::parallel;
 
 /// About how many bytes of text are one piece of work.
 const PIECE: usize = 1 << 18;

@@ -1,11 +1,10 @@
 //! The place of a cloud in the world.
 
 use glam::{DMat3, DVec3};
-use marbles_core::{Angle, Sphere};
+use marbles_core::{Angle, Sphere, parallel};
 
 use crate::bounds::Bounds;
 use crate::file::Up;
-use marbles_core::parallel;
 
 /// The steps by which a cloud is placed.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,6 @@
 //! The distance of what a camera sees.
 
-use marbles_core::{Ray, Sphere, View};
-
-use marbles_core::parallel;
+use marbles_core::{Ray, Sphere, View, parallel};
 
 /// The number of columns of rays in the middle of the picture.
 const COLUMNS: u32 = 9;

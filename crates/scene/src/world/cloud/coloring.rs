@@ -4,13 +4,12 @@ use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use glam::DVec3;
-use marbles_core::Albedos;
+use marbles_core::{Albedos, parallel};
 
 use crate::file::{self, ColorScale, OTHERS_COLOR};
 use crate::table::{self, Categories, Colormap, Missing, Paint, ValueRange};
 use crate::text::{optional, refuse};
 use crate::values::{Flag, from_srgb};
-use marbles_core::parallel;
 
 /// The way from the numbers of a table to colors.
 #[derive(Clone, Debug)]
