@@ -61,15 +61,25 @@ impl<S: Simd> Bends<S> {
         value.simd_ge(0.0) & (along_sides | across_corners)
     }
 
+    /// Their average over a part of each box with this middle: about that over a rectangle as long and as high as fits
+    /// around it.
+    #[inline(always)]
+    pub(super) fn on_average(&self, middle: [f64x8<S>; 2]) -> f64x8<S> {
+        /// The average of squares from −½ to ½.
+        const OF_SQUARES: f64 = 1.0 / 12.0;
+        let (width, height) = (middle[0].abs() * -2.0 + 1.0, middle[1].abs() * -2.0 + 1.0);
+        self.at(middle) + (self.xx * width * width + self.yy * height * height) * OF_SQUARES
+    }
+
     /// The terms at a place.
     #[inline(always)]
-    fn at(&self, [x, y]: [f64x8<S>; 2]) -> f64x8<S> {
+    pub(super) fn at(&self, [x, y]: [f64x8<S>; 2]) -> f64x8<S> {
         (self.xx * x + self.xy * y) * x + self.yy * y * y
     }
 
     /// The changes of the terms at a place.
     #[inline(always)]
-    fn slopes(&self, [x, y]: [f64x8<S>; 2]) -> [f64x8<S>; 2] {
+    pub(super) fn slopes(&self, [x, y]: [f64x8<S>; 2]) -> [f64x8<S>; 2] {
         [
             self.xx * x * 2.0 + self.xy * y,
             self.xy * x + self.yy * y * 2.0,

@@ -126,12 +126,11 @@ impl Contours {
             return;
         }
         outside.cut(simd, &part.other_side(simd));
-        let inner = part.share * value + part.moments[0] * across[0] + part.moments[1] * across[1];
         let is_cut = part.share.simd_lt(one) & part.share.simd_gt(zero);
-        let steepness = across[0] * across[0] + across[1] * across[1];
-        let whole = (part.share * steepness).max(f64x8::splat(simd, f64::MIN_POSITIVE));
-        let back = is_cut.select(inner * (OF_ROOT - 1.0) / whole, zero);
-        let inward = [back * across[0], back * across[1]];
+        let by_share = one / part.share.max(f64x8::splat(simd, f64::MIN_POSITIVE));
+        let middle = [part.moments[0] * by_share, part.moments[1] * by_share];
+        let [to_x, to_y] = function.toward_mean(middle, OF_ROOT);
+        let inward = [is_cut.select(to_x, zero), is_cut.select(to_y, zero)];
         let depth = self.depths.len();
         if has_depth {
             self.depths.push(Depth::new(simd, boxes, active, &function));

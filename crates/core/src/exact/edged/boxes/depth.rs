@@ -35,6 +35,22 @@ impl<S: Simd> Function<S> {
             },
         }
     }
+
+    /// The step along the gradient, in sides, from the middle of a part of each box to where the function is this share
+    /// of its average over the part.
+    #[inline(always)]
+    pub(super) fn toward_mean(&self, middle: [f64x8<S>; 2], share: f64) -> [f64x8<S>; 2] {
+        let one = f64x8::splat(middle[0].simd(), 1.0);
+        let [x, y] = self.across;
+        let there = self.value + x * middle[0] + y * middle[1];
+        let (at_middle, on_average) = (self.bends.at(middle), self.bends.on_average(middle));
+        let [turned_x, turned_y] = self.bends.slopes(middle);
+        let gradient = [x + turned_x, y + turned_y];
+        let size_sq = gradient[0] * gradient[0] + gradient[1] * gradient[1];
+        let rise = (there + on_average) * share - (there + at_middle);
+        let step = rise / size_sq.max(one * f64::MIN_POSITIVE);
+        [gradient[0] * step, gradient[1] * step]
+    }
 }
 
 /// The reciprocals of the distances of a sphere along rays, in multiples of these, on boxes: those of a plane are linear.

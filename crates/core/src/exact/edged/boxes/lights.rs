@@ -84,7 +84,10 @@ impl<S: Simd> Lit<S> {
                 middle[axis] = is_known.select(of_lit[axis], middle[axis]);
             }
         }
-        let of_point = (cosine, across);
+        // Where a silhouette cuts a box, the root of the discriminant is the average in the point, but what is linear is
+        // the average in the middle of what is seen.
+        let on_average = cosine - around.turned.dot_one(toward);
+        let of_point = (on_average, across);
         let offset = around.offset;
         let of_lit = [offset, middle, visible.inward];
         let (faced, aside) = Faced::new(simd, normals, toward, of_point, of_lit);

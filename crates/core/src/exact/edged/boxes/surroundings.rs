@@ -18,6 +18,9 @@ pub(super) struct Surroundings<S: Simd> {
     pub(super) across: [Vectors<S>; 2],
     /// From the middles of boxes to the points, in sides.
     pub(super) offset: [f64x8<S>; 2],
+    /// How normals turn from the middles of what is seen to the points, across the view: where a silhouette cuts a box
+    /// the points lie beside the middles.
+    pub(super) turned: Vectors<S>,
     pub(super) radius: f64,
     /// The sides of boxes on the retina at distance 1.
     pub(super) sides: [f64; 2],
@@ -96,6 +99,13 @@ impl<S: Simd> Surroundings<S> {
             // Without perspective.
             (slide, slides) = (slide * 0.0, [slide * 0.0; 2]);
         }
+        let turned = Self::turned(
+            &points,
+            [
+                (offset[0] - middle[0]) * (sides[0] / ball.radius) * scale,
+                (offset[1] - middle[1]) * (sides[1] / ball.radius) * scale,
+            ],
+        );
         let ray_length = points.ray_sq.sqrt();
         let (grazing, by_grazing) = (toward_eye / ray_length, by_eye * ray_length);
         let steepest = (grazing - turn_sq.sqrt() * RECEDING).max(grazing * LEAST_OF_GRAZING);
@@ -114,6 +124,7 @@ impl<S: Simd> Surroundings<S> {
             ),
             across,
             offset,
+            turned,
             radius: ball.radius,
             sides,
             turn_sq,
@@ -124,6 +135,17 @@ impl<S: Simd> Surroundings<S> {
             slide,
             points,
         }
+    }
+
+    /// A step beside the view, of which these are parts along both axes.
+    #[inline(always)]
+    fn turned(points: &Points<S>, [x, y]: [f64x8<S>; 2]) -> Vectors<S> {
+        let ray = &points.ray;
+        let along = (ray.x * x + ray.y * y) / points.ray_sq;
+        let mut turned = ray.times(-along);
+        turned.x += x;
+        turned.y += y;
+        turned
     }
 
     /// The second derivatives.
