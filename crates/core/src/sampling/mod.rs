@@ -6,6 +6,7 @@
 //! one rounding an operation, so that a picture is the same to the bit on any processor, and
 //! however it is cut into tiles.
 
+mod blocks;
 mod centers;
 mod groups;
 mod last_places;
@@ -13,6 +14,7 @@ mod light;
 mod outlines;
 mod parallel;
 mod rays;
+mod sampler;
 mod scattered;
 mod shadow;
 mod sums;

@@ -35,7 +35,7 @@ impl<'tile> Tracer<'tile> {
         place: Place,
         groups: &mut Groups<'tile>,
     ) -> Sight<S> {
-        let width = self.rays.lanes(self.tile.width);
+        let width = place.lanes(self.tile.width);
         let viewpoint = self.rays.viewpoint();
         let rays: [Ray; LANES] =
             std::array::from_fn(|lane| self.rays.ray(place, lane.min(width - 1)));
@@ -85,7 +85,7 @@ impl<'tile> Tracer<'tile> {
         let direction = rays[0].direction;
         let all = (1_u64 << width) - 1;
         for ball in &self.balls.list {
-            self.tests += 1;
+            self.tests += width as u64;
             let from_ray = Vectors::splat(simd, ball.ball.to_center).minus(offset);
             let along = from_ray.dot_one(direction);
             let distance_sq = from_ray.length_squared();

@@ -1,4 +1,4 @@
-//! The rays of a tile, eight pixels of a row at a time.
+//! The rays of a tile, eight at a time.
 
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
@@ -33,8 +33,8 @@ pub(super) struct Rays {
     scale: f64,
     /// Columns and rows on a length of 1 at the distance of 1, or at any.
     pixels_on_unit: DVec2,
-    /// Rows in the lens's shift.
-    shift_rows: f64,
+    /// Columns and rows in the lens's shift.
+    shift: DVec2,
     /// The place of the first sample in a pixel.
     first: f64,
     /// If samples are scattered, the number of strata on a side of a pixel.
@@ -45,27 +45,45 @@ pub(super) struct Rays {
 /// as good as random places.
 const FINE: u32 = 1 << 20;
 
-/// A sample of each of eight pixels in a row: which part of the pixels, and where the row starts.
-///
-/// If samples are scattered: two samples in each of four strata of one pixel. The cell is one of the squares of 2 × 2
-/// strata.
+/// The samples that eight rays are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Spread {
+    /// One in each of eight pixels of a row, in the same cell of all of them.
+    Pixels,
+    /// Those of [`BLOCK_COLS`] × [`BLOCK_ROWS`] cells of one pixel, from the cell on; beyond the last cells these once more.
+    Block,
+    /// Two random ones in each of four strata of one pixel. The cell is one of the squares of 2 × 2 strata.
+    Strata,
+}
+
+/// The columns and rows of the cells whose samples are taken together, if these are in one pixel.
+pub(super) const BLOCK_COLS: u32 = 4;
+pub(super) const BLOCK_ROWS: u32 = LANES as u32 / BLOCK_COLS;
+
+/// The place of eight samples: the first pixel, and the first cell in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) col: u32,
     pub(super) row: u32,
     pub(super) cell_col: u32,
     pub(super) cell_row: u32,
-    /// Whether all rays are samples of the first pixel.
-    pub(super) is_scattered: bool,
+    pub(super) spread: Spread,
 }
 
 impl Place {
     /// The column of the pixel that a ray belongs to.
     pub(super) fn col_of(&self, lane: usize) -> u32 {
-        if self.is_scattered {
-            self.col
-        } else {
-            self.col + lane as u32
+        match self.spread {
+            Spread::Pixels => self.col + lane as u32,
+            Spread::Block | Spread::Strata => self.col,
+        }
+    }
+
+    /// The number of different rays among eight, in a tile with this number of columns.
+    pub(super) fn lanes(&self, width: u32) -> usize {
+        match self.spread {
+            Spread::Pixels => (width as usize).min(LANES),
+            Spread::Block | Spread::Strata => LANES,
         }
     }
 }
@@ -91,7 +109,7 @@ impl Rays {
             exponent,
             scale: libm::scalbn(1.0, -exponent),
             pixels_on_unit: magnification / view.pixel_size(),
-            shift_rows: view.lens.shift.y / view.pixel_size().y,
+            shift: view.lens.shift / view.pixel_size(),
             first: 0.5 / f64::from(side),
             strata: None,
         }
@@ -102,14 +120,6 @@ impl Rays {
         Self {
             strata: Some(side),
             ..Self::new(&self.view, FINE)
-        }
-    }
-
-    /// The number of different rays among eight, in a tile with this number of columns.
-    pub(super) fn lanes(&self, width: u32) -> usize {
-        match self.strata {
-            Some(_) => LANES,
-            None => (width as usize).min(LANES),
         }
     }
 
@@ -187,15 +197,10 @@ impl Rays {
         }
     }
 
-    /// The directions of eight scattered samples, divided by that power.
+    /// The directions of eight samples of one pixel, divided by that power.
     #[inline(always)]
-    pub(super) fn scattered_directions<S: Simd>(&self, simd: S, place: Place) -> Vectors<S> {
-        let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
-        for lane in 0..LANES {
-            let [col, row] = self.cell_of(place, lane);
-            u[lane] = self.twice(place.col, col, self.view.width);
-            v[lane] = self.twice(place.row, row, self.view.height);
-        }
+    pub(super) fn directions_in_pixel<S: Simd>(&self, simd: S, place: Place) -> Vectors<S> {
+        let [u, v] = self.twice_in_pixel(place);
         let shift = self.view.lens.shift;
         let u = f64x8::from_array(simd, u) * self.half_cell.x + shift.x;
         let v = f64x8::from_array(simd, v) * -self.half_cell.y + shift.y;
@@ -208,28 +213,29 @@ impl Rays {
         }
     }
 
+    /// Twice the distances, in cells, of eight samples of one pixel from the middle, to the right and down.
+    #[inline(never)]
+    fn twice_in_pixel(&self, place: Place) -> [[f64; LANES]; 2] {
+        let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let [col, row] = self.cell_of(place, lane);
+            u[lane] = self.twice(place.col, col, self.view.width);
+            v[lane] = self.twice(place.row, row, self.view.height);
+        }
+        [u, v]
+    }
+
     /// The column and row, in its pixel, of the cell of a sample.
     fn cell_of(&self, place: Place, lane: usize) -> [u32; 2] {
-        let Some(side) = self.strata else {
-            return [place.cell_col, place.cell_row];
-        };
-        let stratum = [
-            2 * place.cell_col + (lane as u32 & 1),
-            2 * place.cell_row + (lane as u32 >> 1 & 1),
-        ];
-        // Both samples of a stratum have numbers of their own, in any division of the pixel.
-        let pixel = hash(
-            u64::from(place.col) << 32 | u64::from(place.row),
-            u64::from(side),
-        );
-        let name = u64::from(stratum[0]) << 32 | u64::from(stratum[1]) << 1;
-        let [x, y, _] = spread(hash(pixel, name | lane as u64 >> 2));
-        let size = f64::from(FINE) / f64::from(side);
-        let cell = |stratum: u32, offset: f64| {
-            let place = (f64::from(stratum) + 0.5 + 0.5 * offset) * size;
-            (place as u32).min(FINE - 1)
-        };
-        [cell(stratum[0], x), cell(stratum[1], y)]
+        let lane = lane as u32;
+        match (place.spread, self.strata) {
+            (Spread::Block, _) => [
+                (place.cell_col + lane % BLOCK_COLS).min(self.side - 1),
+                (place.cell_row + lane / BLOCK_COLS).min(self.side - 1),
+            ],
+            (Spread::Strata, Some(strata)) => cell_of_stratum(place, strata, lane),
+            _ => [place.cell_col, place.cell_row],
+        }
     }
 
     /// The ray of one of the eight samples.
@@ -252,6 +258,7 @@ impl Rays {
                 projection: Projection::Parallel,
                 cone: None,
                 rows: self.rows(tile),
+                columns: self.columns(tile),
                 shortest: 1.0,
                 longest: 1.0,
             };
@@ -273,24 +280,41 @@ impl Rays {
             projection: Projection::Central,
             cone: self.cone(center, center_length, reach),
             rows: self.rows(tile),
+            columns: self.columns(tile),
             shortest: shortest.max(center.z) * (1.0 / WIDER),
             longest: longest * WIDER,
         }
     }
 
     /// The rows of a tile.
-    fn rows(&self, tile: Tile) -> Rows {
+    fn rows(&self, tile: Tile) -> Lines {
         let axes = &self.view.camera.world_from_camera;
         let middle = 0.5 * f64::from(self.view.height) - f64::from(tile.row);
-        Rows {
+        Lines {
             up: axes.y_axis,
             forward: axes.z_axis,
             on_unit: self.pixels_on_unit.y,
-            origin: middle + self.shift_rows,
-            size: f64::from(self.view.height) + self.shift_rows.abs(),
+            origin: middle + self.shift.y,
+            size: f64::from(self.view.height) + self.shift.y.abs(),
             first: self.first,
             last: 1.0 - self.first,
             count: tile.height,
+        }
+    }
+
+    /// The columns of a tile.
+    fn columns(&self, tile: Tile) -> Lines {
+        let axes = &self.view.camera.world_from_camera;
+        let middle = 0.5 * f64::from(self.view.width) - f64::from(tile.col);
+        Lines {
+            up: -axes.x_axis,
+            forward: axes.z_axis,
+            on_unit: self.pixels_on_unit.x,
+            origin: middle - self.shift.x,
+            size: f64::from(self.view.width) + self.shift.x.abs(),
+            first: self.first,
+            last: 1.0 - self.first,
+            count: tile.width,
         }
     }
 
@@ -319,7 +343,8 @@ pub(super) struct Bundle {
     pub(super) projection: Projection,
     /// Around them; none where it would be wider than is worth having, and for parallel rays.
     pub(super) cone: Option<Cone>,
-    pub(super) rows: Rows,
+    pub(super) rows: Lines,
+    pub(super) columns: Lines,
     /// No direction is shorter.
     pub(super) shortest: f64,
     /// No direction is longer.
@@ -336,20 +361,41 @@ pub(super) struct Cone {
     pub(super) cosine: f64,
 }
 
-/// The places of the rows of a tile.
+/// The places of the rows of a tile, from above, or of its columns, from the left.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rows {
-    /// Unit axes of the camera, in the world frame.
+pub(super) struct Lines {
+    /// Unit axes of the camera, in the world frame: toward the first lines, and forward.
     pub(super) up: DVec3,
     pub(super) forward: DVec3,
-    /// The number of rows on a length of 1 at the distance of 1.
+    /// The number of lines on a length of 1 at the distance of 1.
     pub(super) on_unit: f64,
-    /// The way from the tile's upper edge down to the height 0, in rows.
+    /// The way from the tile's first edge to the lens's axis, in lines.
     pub(super) origin: f64,
-    /// More than any number of rows that is added up.
+    /// More than any number of lines that is added up.
     pub(super) size: f64,
-    /// The places of the first and last samples of a row in it.
+    /// The places of the first and last samples of a line in it.
     pub(super) first: f64,
     pub(super) last: f64,
     pub(super) count: u32,
+}
+
+/// The cell of a random sample: one of two in each of four strata of a pixel, which has this number of strata on a side.
+fn cell_of_stratum(place: Place, side: u32, lane: u32) -> [u32; 2] {
+    let stratum = [
+        2 * place.cell_col + (lane & 1),
+        2 * place.cell_row + (lane >> 1 & 1),
+    ];
+    // Both samples of a stratum have numbers of their own, in any division of the pixel.
+    let pixel = hash(
+        u64::from(place.col) << 32 | u64::from(place.row),
+        u64::from(side),
+    );
+    let name = u64::from(stratum[0]) << 32 | u64::from(stratum[1]) << 1;
+    let [x, y, _] = spread(hash(pixel, name | u64::from(lane >> 2)));
+    let size = f64::from(FINE) / f64::from(side);
+    let cell = |stratum: u32, offset: f64| {
+        let place = (f64::from(stratum) + 0.5 + 0.5 * offset) * size;
+        (place as u32).min(FINE - 1)
+    };
+    [cell(stratum[0], x), cell(stratum[1], y)]
 }

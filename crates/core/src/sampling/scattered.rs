@@ -3,7 +3,8 @@
 use fearless_simd::{Simd, dispatch};
 
 use super::light::splat;
-use super::rays::{Place, Rays};
+use super::rays::{Place, Rays, Spread};
+use super::sampler::Places;
 use super::sums::Sample;
 use super::supersampling::{ROWS, Scratch, Supersampling};
 use crate::model::color::Color;
@@ -102,7 +103,7 @@ impl Supersampling<'_> {
             geometry,
             ..
         } = &mut Scratch::default();
-        self.gather(simd, rays, tile, balls);
+        self.gather(simd, rays, (tile, false), balls);
         let Some(mut sampler) = self.sampler(rays, tile, balls, (cells, geometry)) else {
             let count = 2 * u64::from(side) * u64::from(side);
             pairs.value = self.background() * count as f64;
@@ -120,9 +121,10 @@ impl Supersampling<'_> {
                     row: key.row,
                     cell_col,
                     cell_row,
-                    is_scattered: true,
+                    spread: Spread::Strata,
                 };
-                self.sample_cell(simd, place, &nothing, &mut sampler, &mut samples);
+                let places = Places::one(place);
+                self.sample_places(simd, &places, &nothing, &mut sampler, &mut samples);
                 pairs.add(&samples[0]);
             }
         }

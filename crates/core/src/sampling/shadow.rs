@@ -25,7 +25,19 @@ pub(super) struct Shadows<'scene> {
     scale: Scale,
     /// The regions of surfaces that were asked for.
     regions: Vec<Region>,
+    /// In worlds too large to keep discs: those before each ball of the tile, for each light, once they were asked for.
+    of_balls: Vec<Before>,
+    discs: Vec<Disc>,
     cells: &'scene mut ShadowCells,
+}
+
+/// The discs that may keep a light from a ball, as a range of all discs.
+#[derive(Clone, Copy, Debug)]
+enum Before {
+    Unasked,
+    Discs(u32, u32),
+    /// Too many, or of several cells.
+    Unknown,
 }
 
 /// The size of what a tile sees.
@@ -70,6 +82,8 @@ impl<'scene> Shadows<'scene> {
             viewpoint,
             scale,
             regions: Vec::new(),
+            of_balls: Vec::new(),
+            discs: Vec::new(),
             cells,
         }
     }
@@ -98,9 +112,14 @@ impl<'scene> Shadows<'scene> {
             }
             let sphere = group.ball.index();
             let discs = self.visibility.light(index);
-            let side_by_side = self.visibility.is_moderate()
-                && discs.keeps()
-                && (group.ball.has_many_samples || discs.knows(sphere));
+            let knows = |shadows: &mut Self| {
+                if discs.keeps() {
+                    group.ball.has_many_samples || discs.knows(sphere)
+                } else {
+                    group.ball.has_many_samples && shadows.knows(simd, index, group.ball)
+                }
+            };
+            let side_by_side = self.visibility.is_moderate() && knows(self);
             let mut alone = lanes;
             if side_by_side {
                 // Spheres lie far apart in memory: only here they are read.
@@ -113,7 +132,7 @@ impl<'scene> Shadows<'scene> {
                 lanes &= !alone;
             }
             if lanes != 0 {
-                reached &= !self.darkened(simd, &lit, index, light, sphere, lanes);
+                reached &= !self.darkened(simd, &lit, index, light, group.ball, lanes);
             }
         }
         reached
@@ -188,28 +207,63 @@ impl<'scene> Shadows<'scene> {
         lit: &LitPoints<S>,
         index: usize,
         light: &DirectionalLight,
-        sphere: usize,
+        ball: &TileBall,
         asked: u64,
     ) -> u64 {
         let visibility = self.visibility;
-        let discs = match visibility.light(index).of_sphere(sphere) {
-            Some(discs) => discs,
-            None => self.discs_of_region(lit, index, sphere, asked),
+        let sphere = ball.index();
+        let known = self.of_balls.get(self.of_ball(index, ball));
+        let discs = if let Some(&Before::Discs(first, end)) = known {
+            &self.discs[first as usize..end as usize]
+        } else if let Some(discs) = visibility.light(index).of_sphere(sphere) {
+            discs
+        } else {
+            self.discs_of_region(lit, index, sphere, asked)
         };
-        let mut left = asked;
-        for disc in discs {
-            let (x, y) = (lit.right - disc.center.x, lit.up - disc.center.y);
-            let reach = f64x8::splat(simd, disc.radius * disc.radius);
-            let beyond = (x * x + y * y).simd_gt(reach).to_bitmask();
-            let maybe = left & !beyond;
-            if maybe != 0 {
-                left &= !blocked(simd, visibility, lit, light, disc.sphere as usize, maybe);
-                if left == 0 {
-                    break;
-                }
-            }
+        darkened(simd, visibility, (lit, light), discs, asked)
+    }
+
+    /// The place of what is known about a ball.
+    fn of_ball(&self, light: usize, ball: &TileBall) -> usize {
+        ball.place as usize * self.visibility.lights().len() + light
+    }
+
+    /// True if the discs are known that may darken points of a ball, in a world too large to keep them.
+    #[inline(always)]
+    fn knows<S: Simd>(&mut self, simd: S, light: usize, ball: &TileBall) -> bool {
+        let known = self.of_ball(light, ball);
+        if known >= self.of_balls.len() {
+            self.of_balls.resize(known + 1, Before::Unasked);
         }
-        asked & !left
+        if let Before::Unasked = self.of_balls[known] {
+            self.of_balls[known] = self.find_discs(simd, light, ball);
+        }
+        matches!(self.of_balls[known], Before::Discs(..))
+    }
+
+    /// Finds the discs that may darken points of a ball.
+    #[inline(never)]
+    fn find_discs<S: Simd>(&mut self, simd: S, light: usize, ball: &TileBall) -> Before {
+        let side = self.side(ball.ball.to_center.abs().max_element() * self.scale.length);
+        let first = self.discs.len();
+        let asked = (light, ball.index(), side);
+        let is_known = self
+            .cells
+            .discs_before(simd, self.visibility, asked, &mut self.discs);
+        if !is_known {
+            self.discs.truncate(first);
+            return Before::Unknown;
+        }
+        Before::Discs(first as u32, self.discs.len() as u32)
+    }
+
+    /// About the side of a tile at a distance.
+    fn side(&self, distance: f64) -> f64 {
+        self.scale.tile_side
+            * match self.scale.projection {
+                Projection::Central => distance,
+                Projection::Parallel => 1.0,
+            }
     }
 
     /// The discs that may darken some points of a sphere: of a somewhat larger region, as others are
@@ -272,16 +326,13 @@ impl<'scene> Shadows<'scene> {
                 let mut dark = 0;
                 for lane in set_bits(asked) {
                     let point = lit.points.lane(lane);
-                    let distance = match self.scale.projection {
-                        Projection::Central => (point - self.viewpoint).abs().max_element(),
-                        Projection::Parallel => 1.0,
-                    };
+                    let distance = (point - self.viewpoint).abs().max_element();
                     let point = SurfacePoint {
                         point,
                         error: lit.errors[lane],
                         sphere: ball.index(),
                         center,
-                        side: distance * self.scale.tile_side,
+                        side: self.side(distance),
                     };
                     let is_dark = self.cells.is_blocked(simd, self.visibility, light, &point);
                     dark |= u64::from(is_dark) << lane;
@@ -290,6 +341,31 @@ impl<'scene> Shadows<'scene> {
             },
         )
     }
+}
+
+/// Those of some points, as bits, that a light does not reach because of spheres with some discs.
+#[inline(always)]
+fn darkened<S: Simd>(
+    simd: S,
+    visibility: &Visibility<'_>,
+    (lit, light): (&LitPoints<S>, &DirectionalLight),
+    discs: &[Disc],
+    asked: u64,
+) -> u64 {
+    let mut left = asked;
+    for disc in discs {
+        let (x, y) = (lit.right - disc.center.x, lit.up - disc.center.y);
+        let reach = f64x8::splat(simd, disc.radius * disc.radius);
+        let beyond = (x * x + y * y).simd_gt(reach).to_bitmask();
+        let maybe = left & !beyond;
+        if maybe != 0 {
+            left &= !blocked(simd, visibility, lit, light, disc.sphere as usize, maybe);
+            if left == 0 {
+                break;
+            }
+        }
+    }
+    asked & !left
 }
 
 /// From which of some points, as bits, a sphere hides a light.

@@ -48,8 +48,17 @@ impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
         }
     }
 
+    /// Adds a sample of each pixel, which sees something in these pixels, as bits.
     #[inline(always)]
     pub(super) fn add(&mut self, simd: S, light: Light<S, CHANNELS>, covered: u64) {
+        let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
+        let covered = mask64x8::from_bitmask(simd, covered).select(one, zero);
+        self.add_counted(light, covered);
+    }
+
+    /// The same, which counts as one where it sees something.
+    #[inline(always)]
+    pub(super) fn add_counted(&mut self, light: Light<S, CHANNELS>, covered: f64x8<S>) {
         for channel in 0..CHANNELS {
             let light = light[channel];
             let (low, high) = (self.low[channel], self.high[channel]);
@@ -57,8 +66,7 @@ impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
             self.low[channel] = light.simd_lt(low).select(light, low);
             self.high[channel] = light.simd_gt(high).select(light, high);
         }
-        let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
-        self.covered += mask64x8::from_bitmask(simd, covered).select(one, zero);
+        self.covered += covered;
     }
 
     /// The means, and their errors: the spread of the samples over twice the samples per side. Alpha is one more

@@ -3,25 +3,19 @@
 use std::num::NonZeroU32;
 
 use fearless_simd::{Level, Simd, dispatch};
-use glam::DVec3;
 
+use super::blocks::RowSamples;
 use super::centers::Centers;
-use super::groups::Groups;
-use super::last_places::Seen;
-use super::light::{Light, Looks, Shading, splat};
-use super::rays::{Place, Rays};
-use super::shadow::{Scale, Shadows};
+use super::light::{Shading, splat};
+use super::rays::{Place, Rays, Spread};
+use super::sampler::Places;
 use super::sums::{Sample, Sums};
 use super::tile_balls::TileBalls;
-use super::trace::{RayRow, Tracer};
-use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::light_unit::{LightUnit, NOTHING};
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
-use crate::numeric::lanes::mask64x8;
-use crate::numeric::vectors::Vectors;
 use crate::picture::band::Band;
 use crate::picture::geometry::{Geometry, TileGeometry};
 use crate::picture::image::{Channels, Uniform};
@@ -34,6 +28,12 @@ use crate::search::view_index::ViewIndex;
 /// Rows of a tile.
 pub(super) const ROWS: usize = Tile::SIDE as usize;
 
+/// The number of samples on a side of a pixel from which on eight samples of one pixel may be taken together.
+const LEAST_OF_BLOCKS: u32 = 4;
+
+/// The number of balls in a tile from which on they are: few of eight pixels beside each other see the same ball then.
+const CROWD: usize = 16;
+
 /// The mean over the midpoints of a regular N × N division of every pixel.
 ///
 /// # Accuracy
@@ -44,7 +44,7 @@ pub(super) const ROWS: usize = Tile::SIDE as usize;
 /// sample alone says nothing: its error is infinite.
 #[derive(Clone, Debug)]
 pub(crate) struct Supersampling<'scene> {
-    index: ViewIndex<'scene>,
+    pub(super) index: ViewIndex<'scene>,
     samples: NonZeroU32,
     pub(super) channels: Channels,
     alpha: bool,
@@ -54,11 +54,13 @@ pub(crate) struct Supersampling<'scene> {
     nothing: f64,
     pub(super) rays: Rays,
     pub(super) shading: Shading<'scene>,
-    view: View,
+    pub(super) view: View,
     /// Tells what the samples see, of which there is one a pixel.
-    centers: Option<Centers>,
+    pub(super) centers: Option<Centers>,
     /// True where nobody asks for light.
-    is_dark: bool,
+    pub(super) is_dark: bool,
+    /// The number of balls in a tile from which on eight samples of one pixel are taken together.
+    crowd: usize,
     /// The instructions that the processor has.
     pub(super) level: Level,
 }
@@ -86,6 +88,7 @@ impl<'scene> Supersampling<'scene> {
             view: *view,
             centers: None,
             is_dark: false,
+            crowd: CROWD,
             level: Level::new(),
         }
     }
@@ -149,8 +152,8 @@ impl<'scene> Supersampling<'scene> {
         }
     }
 
-    /// Averages the light of a tile; how many balls were asked whether eight rays meet them, or
-    /// none, and no light, where all rays meet nothing.
+    /// Averages the light of a tile; how often balls were asked whether rays meet them, or none, and no light, where
+    /// all rays meet nothing.
     fn sample(&self, tile: Tile, scratch: &mut Scratch) -> Option<u64> {
         if self.centers.is_some() {
             scratch.geometry.clear();
@@ -171,14 +174,14 @@ impl<'scene> Supersampling<'scene> {
         dispatch!(self.level, simd => self.sample_lanes::<_, CHANNELS>(simd, tile, scratch))
     }
 
-    /// The work on a tile, from the tests of eight rays.
+    /// The work on a tile, from the tests of rays.
     fn work(&self, tile: Tile, tests: u64) -> Work {
         let side = u64::from(self.samples.get());
         let width = u64::from(tile.width);
         Work {
             samples: width * u64::from(tile.height) * side * side,
             lines: 0,
-            candidate_tests: tests * width,
+            candidate_tests: tests,
         }
     }
 
@@ -203,7 +206,7 @@ impl<'scene> Supersampling<'scene> {
         }
     }
 
-    /// Averages the light of a tile, eight pixels side by side.
+    /// Averages the light of a tile.
     #[inline(always)]
     fn sample_lanes<S: Simd, const CHANNELS: usize>(
         &self,
@@ -214,32 +217,44 @@ impl<'scene> Supersampling<'scene> {
             light,
             geometry,
             cells: shadow_cells,
+            samples: row_samples,
         }: &mut Scratch,
     ) -> Option<u64> {
-        self.gather(simd, &self.rays, tile, balls);
+        let side = self.samples.get();
+        let may_take_blocks = side >= LEAST_OF_BLOCKS && self.centers.is_none();
+        self.gather(simd, &self.rays, (tile, may_take_blocks), balls);
         let memory = (shadow_cells, geometry);
         let mut sampler = self.sampler(&self.rays, tile, balls, memory)?;
         let nothing = Sample {
             light: splat(simd, self.background()),
             covered: 0,
         };
-        let side = self.samples.get();
+        let as_light = (self.of_alpha, self.nothing);
         let height = tile.height as usize;
         let mut samples = [nothing; ROWS];
         let mut sums = None;
         if side > 1 {
             sums = Some([Sums::<S, CHANNELS>::new(simd); ROWS]);
         }
+        let are_blocks = may_take_blocks && balls.list.len() >= self.crowd;
+        if are_blocks && let Some(sums) = &mut sums {
+            for (row, sums) in sums[..height].iter_mut().enumerate() {
+                let of_row = (row as u32, side);
+                self.sample_blocks(simd, of_row, &nothing, (&mut sampler, row_samples), sums);
+            }
+        }
+        let columns = if are_blocks { 0 } else { side };
         for cell_row in 0..side {
-            for cell_col in 0..side {
+            for cell_col in 0..columns {
                 let place = Place {
                     col: tile.col,
                     row: tile.row,
                     cell_col,
                     cell_row,
-                    is_scattered: false,
+                    spread: Spread::Pixels,
                 };
-                self.sample_cell(simd, place, &nothing, &mut sampler, &mut samples);
+                let places = Places::rows(place, tile.height);
+                self.sample_places(simd, &places, &nothing, &mut sampler, &mut samples);
                 if let Some(sums) = &mut sums {
                     for (sums, sample) in sums.iter_mut().zip(&samples) {
                         sums.add(simd, sample.light, sample.covered);
@@ -250,144 +265,11 @@ impl<'scene> Supersampling<'scene> {
         for row in 0..height {
             let pixels = light.row_mut(row as u32);
             match &sums {
-                Some(sums) => sums[row].store(simd, side, (self.of_alpha, self.nothing), pixels),
+                Some(sums) => sums[row].store(simd, side, as_light, pixels),
                 None => samples[row].store(simd, self.nothing, pixels),
             }
         }
         Some(sampler.tracer.tests)
-    }
-
-    /// Finds the balls that rays of a tile may meet.
-    #[inline(never)]
-    pub(super) fn gather<S: Simd>(&self, simd: S, rays: &Rays, tile: Tile, balls: &mut TileBalls) {
-        let mut cells = rays.cells_on_unit();
-        if rays.projection() == Projection::Parallel {
-            cells *= libm::scalbn(1.0, self.index.length_exponent());
-        }
-        simd.vectorize(
-            #[inline(always)]
-            || balls.gather(simd, cells, &rays.bundle(tile), self.index.balls(tile)),
-        );
-    }
-
-    /// Prepares the search among the balls of a tile, if there is any.
-    pub(super) fn sampler<'tile>(
-        &'tile self,
-        rays: &'tile Rays,
-        tile: Tile,
-        balls: &'tile TileBalls,
-        (cells, geometry): (&'tile mut ShadowCells, &'tile mut TileGeometry),
-    ) -> Option<Sampler<'tile>> {
-        let first = balls.list.first()?;
-        Some(Sampler {
-            tracer: Tracer {
-                index: &self.index,
-                rays,
-                balls,
-                tile,
-                tests: 0,
-            },
-            groups: Groups::new(first),
-            looks: Looks::new(&self.shading),
-            geometry,
-            shadows: (self.shading.world.shadows && !self.is_dark).then(|| {
-                let length = libm::scalbn(1.0, self.index.length_exponent());
-                let size = Scale {
-                    length,
-                    tile_side: rays.tile_side(),
-                    projection: rays.projection(),
-                };
-                let viewpoint = self.view.camera.position;
-                Shadows::new(&self.index.visibility, viewpoint, size, cells)
-            }),
-        })
-    }
-
-    /// Takes a sample of each pixel of a tile, or eight scattered samples of one pixel; `nothing` where no sphere is seen.
-    ///
-    /// Compiled once, and not wherever samples are taken.
-    #[inline(never)]
-    pub(super) fn sample_cell<'tile, S: Simd, const CHANNELS: usize>(
-        &'tile self,
-        simd: S,
-        place: Place,
-        nothing: &Sample<S, CHANNELS>,
-        sampler: &mut Sampler<'tile>,
-        samples: &mut [Sample<S, CHANNELS>; ROWS],
-    ) {
-        simd.vectorize(
-            #[inline(always)]
-            || self.sample_lanes_of_cell(simd, place, nothing, sampler, samples),
-        );
-    }
-
-    #[inline(always)]
-    fn sample_lanes_of_cell<'tile, S: Simd, const CHANNELS: usize>(
-        &'tile self,
-        simd: S,
-        mut place: Place,
-        nothing: &Sample<S, CHANNELS>,
-        sampler: &mut Sampler<'tile>,
-        samples: &mut [Sample<S, CHANNELS>; ROWS],
-    ) {
-        let Sampler {
-            tracer,
-            groups,
-            looks,
-            geometry,
-            shadows,
-        } = sampler;
-        let height = tracer.tile.height as usize;
-        let dark = RayRow::new(simd, Vectors::splat(simd, DVec3::ZERO));
-        let mut rows = [dark; ROWS];
-        let rays = tracer.rays;
-        let across = rays.across(simd, place, tracer.tile.width);
-        let is_parallel = rays.projection() == Projection::Parallel;
-        if !is_parallel {
-            for row in &mut rows[..height] {
-                let directions = if place.is_scattered {
-                    rays.scattered_directions(simd, place)
-                } else {
-                    rays.directions(across, place)
-                };
-                *row = RayRow::new(simd, directions);
-                place.row += 1;
-            }
-            tracer.search(simd, &mut rows);
-        }
-        place.row = tracer.tile.row;
-        for (row, sample) in rows[..height].iter().zip(samples) {
-            let sight = if is_parallel {
-                tracer.look_along(simd, place, groups)
-            } else {
-                tracer.look(simd, place, row, groups)
-            };
-            *sample = *nothing;
-            if let Some(centers) = &self.centers {
-                let row = &mut geometry.rows[(place.row - tracer.tile.row) as usize % ROWS];
-                if sight.covered != 0 {
-                    let seen = Seen {
-                        sight: &sight,
-                        groups,
-                        place,
-                        across,
-                    };
-                    centers.record(simd, &seen, tracer, &self.shading, looks, row);
-                }
-            }
-            if sight.covered != 0 && !self.is_dark {
-                looks.see(&self.shading, groups);
-                let seen = (&sight, &*groups, &mut *looks);
-                let light: Light<S, CHANNELS> = self.shading.light(simd, seen, place, shadows);
-                let covered = mask64x8::from_bitmask(simd, sight.covered);
-                let background = &nothing.light;
-                for channel in 0..CHANNELS {
-                    sample.light[channel] = covered.select(light[channel], background[channel]);
-                }
-                sample.covered = sight.covered;
-            }
-            place.row += 1;
-        }
     }
 
     /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; returns what they cost.
@@ -452,16 +334,7 @@ pub(crate) struct Scratch {
     light: TileLight,
     pub(super) geometry: TileGeometry,
     pub(super) cells: ShadowCells,
-}
-
-/// The search for what the rays of a tile see, and for its light.
-pub(super) struct Sampler<'tile> {
-    pub(super) tracer: Tracer<'tile>,
-    pub(super) groups: Groups<'tile>,
-    pub(super) looks: Looks<'tile>,
-    /// The geometry that is seen, if somebody asks.
-    geometry: &'tile mut TileGeometry,
-    pub(super) shadows: Option<Shadows<'tile>>,
+    samples: RowSamples,
 }
 
 #[cfg(test)]

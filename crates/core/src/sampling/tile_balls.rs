@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use fearless_simd::Simd;
 
-use super::rays::{Bundle, Cone, Rows};
+use super::rays::{Bundle, Cone, Lines};
 use crate::hit::ball::Ball;
 use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
@@ -26,8 +26,11 @@ pub(super) struct TileBall {
     pub(super) root_sign: f64,
     /// True if the ball covers more than some [`FEW_SAMPLES`], if nothing is in front of it.
     pub(super) has_many_samples: bool,
-    /// The rows of the tile that the ball may be seen in, as bits.
+    /// The rows and columns of the tile that the ball may be seen in, as bits.
     pub(super) rows: u8,
+    pub(super) columns: u8,
+    /// Its place in the list.
+    pub(super) place: u32,
 }
 
 /// The cosine of the incidence, squared, below which distance and normal are computed alone: 1/64, from
@@ -49,7 +52,12 @@ impl TileBall {
     /// `cells` is how many samples lie side by side on a length of 1 at the distance of 1, or through a parallel lens
     /// on a unit of the balls' lengths at any.
     #[inline(always)]
-    fn new(ball: &Ball, bundle: &Bundle, cells: f64, rows: u8) -> Self {
+    fn new(
+        ball: &Ball,
+        bundle: &Bundle,
+        cells: f64,
+        ([rows, columns], place): ([u8; 2], usize),
+    ) -> Self {
         let radius_sq = ball.radius * ball.radius;
         let length = if ball.nearest > 0.0 {
             bundle.shortest
@@ -73,6 +81,8 @@ impl TileBall {
             root_sign: if ball.outside < 0.0 { 1.0 } else { -1.0 },
             has_many_samples: PI * (cells * cells) * radius_sq > FEW_SAMPLES * distance_sq,
             rows,
+            columns,
+            place: place as u32,
         }
     }
 }
@@ -90,12 +100,13 @@ pub(super) struct TileBalls {
 const MARGIN: f64 = 1e-12;
 
 impl TileBalls {
-    /// Leaves out what a cone around the rays misses, and what is behind a ball that fills it.
+    /// Leaves out what a cone around the rays misses, and what is behind a ball that fills it; finds out the columns of
+    /// balls, too, if somebody wants them.
     #[inline(always)]
     pub(super) fn gather<'a, S: Simd>(
         &mut self,
         simd: S,
-        cells: f64,
+        (cells, with_columns): (f64, bool),
         bundle: &Bundle,
         mut balls: impl Iterator<Item = &'a Ball>,
     ) {
@@ -115,7 +126,7 @@ impl TileBalls {
                 count += 1;
             }
             let mut kept: u64 = (1 << count) - 1;
-            let mut rows = [u8::MAX; LANES];
+            let mut lines = [[u8::MAX; LANES]; 2];
             if let Some(cone) = &bundle.cone {
                 let group = BallGroup::new(simd, &group);
                 let (missed, far) = group.classify(simd, cone);
@@ -123,13 +134,18 @@ impl TileBalls {
                 farthest = farthest.min(far);
                 // Of few balls each fills more rows than it is worth to find out.
                 if count == LANES {
-                    rows = group.rows(simd, &bundle.rows);
+                    let wanted = if with_columns { 2 } else { 1 };
+                    let of_tile = [&bundle.rows, &bundle.columns];
+                    for (found, lines) in lines.iter_mut().zip(&of_tile[..wanted]) {
+                        *found = group.lines(simd, lines);
+                    }
                 }
             }
             for lane in set_bits(kept) {
-                let (ball, rows) = (group[lane], rows[lane]);
-                if ball.nearest <= farthest && rows != 0 {
-                    self.list.push(TileBall::new(ball, bundle, cells, rows));
+                let (ball, rows, columns) = (group[lane], lines[0][lane], lines[1][lane]);
+                if ball.nearest <= farthest && rows != 0 && columns != 0 {
+                    let of_list = ([rows, columns], self.list.len());
+                    self.list.push(TileBall::new(ball, bundle, cells, of_list));
                     blur = blur.max(ball.blur);
                 }
             }
@@ -204,7 +220,7 @@ impl<S: Simd> BallGroup<S> {
         (missed.to_bitmask(), farthest)
     }
 
-    /// The rows of a tile, as bits, whose samples may see each of the balls.
+    /// The rows or columns of a tile, as bits, whose samples may see each of the balls.
     ///
     /// With y and z the center's coordinates along the upward and the forward axis, a plane through
     /// the viewpoint and a row whose height at the distance of 1 is s touches the ball where
@@ -216,7 +232,7 @@ impl<S: Simd> BallGroup<S> {
     /// z² − r², whose factors do not cancel for z > 65/64 r; and so do the place and the samples' own
     /// places, of all that is added up in them: in rows less than the margin.
     #[inline(always)]
-    fn rows(&self, simd: S, rows: &Rows) -> [u8; LANES] {
+    fn lines(&self, simd: S, rows: &Lines) -> [u8; LANES] {
         let (zero, end) = (
             f64x8::splat(simd, 0.0),
             f64x8::splat(simd, f64::from(rows.count)),

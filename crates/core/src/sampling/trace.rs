@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::groups::{Group, Groups};
 use super::rays::{LEAST_SQUARE, Place, Rays};
+use super::sampler::Places;
 use super::tile_balls::{TileBall, TileBalls};
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{LANES, f64x8, mask64x8};
@@ -24,7 +25,7 @@ pub(super) struct Tracer<'tile> {
     pub(super) rays: &'tile Rays,
     pub(super) balls: &'tile TileBalls,
     pub(super) tile: Tile,
-    /// Balls that were asked whether eight rays meet them.
+    /// How often balls were asked whether a ray meets them.
     pub(super) tests: u64,
 }
 
@@ -127,12 +128,17 @@ impl<'tile> Tracer<'tile> {
     /// by their B ± √Q, whose errors [`Ball`](crate::hit::ball::Ball) bounds by |d| times its `blur`.
     /// Balls that lie closer together count as doubtful from there on.
     ///
-    /// Ball by ball and row by row: the rows do not wait for each other. Rows beyond the height of
-    /// the tile are left alone.
+    /// Ball by ball and row by row: the rows do not wait for each other. Rows without a place are left alone.
     #[inline(always)]
-    pub(super) fn search<S: Simd>(&mut self, simd: S, rows: &mut [RayRow<S>; SIDE]) {
+    pub(super) fn search<S: Simd>(
+        &mut self,
+        simd: S,
+        places: &Places,
+        rows: &mut [RayRow<S>; SIDE],
+    ) {
+        let lanes = places.as_slice()[0].lanes(self.tile.width) as u64;
         // The rows in which something may come nearer, as bits.
-        let mut open = u8::MAX >> (SIDE as u32 - self.tile.height);
+        let mut open = u8::MAX >> (SIDE - places.as_slice().len());
         let blur = f64x8::splat(simd, 2.0 * self.balls.blur);
         for (place, ball) in self.balls.list.iter().enumerate() {
             let tested = Tested {
@@ -142,7 +148,7 @@ impl<'tile> Tracer<'tile> {
                 begin: f64x8::splat(simd, ball.begin),
                 blur,
             };
-            for number in set_bits(ball.rows & open) {
+            for number in set_bits(places.of_ball(ball) & open) {
                 let row = &mut rows[number % SIDE];
                 // Whatever lies within the error of the nearest was met before, or is doubtful; and
                 // the next ones begin no sooner.
@@ -150,7 +156,7 @@ impl<'tile> Tracer<'tile> {
                     open &= !(1 << number);
                     continue;
                 }
-                self.tests += 1;
+                self.tests += lanes;
                 row.test(simd, &tested);
             }
             if open == 0 {
@@ -191,7 +197,7 @@ impl<'tile> Tracer<'tile> {
     #[inline(never)]
     fn settle(&self, place: Place, open: u64, places: &mut [f64; LANES]) {
         for lane in set_bits(open) {
-            let lane_of_pixel = lane.min(self.rays.lanes(self.tile.width) - 1);
+            let lane_of_pixel = lane.min(place.lanes(self.tile.width) - 1);
             let ray = self.rays.ray(place, lane_of_pixel);
             let nearest = self.index.nearest(self.tile, &ray);
             let place = nearest.and_then(|(index, _)| {
@@ -310,7 +316,7 @@ impl<'tile> Tracer<'tile> {
             let Some(group) = groups.as_slice().iter().find(|group| sees(group)) else {
                 continue;
             };
-            let lane_of_pixel = lane.min(self.rays.lanes(self.tile.width) - 1);
+            let lane_of_pixel = lane.min(place.lanes(self.tile.width) - 1);
             let ray = self.rays.ray(place, lane_of_pixel);
             let Some(hit) = spheres[group.ball.index()].hit_from_viewpoint(&ray) else {
                 continue;

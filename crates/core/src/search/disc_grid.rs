@@ -63,6 +63,16 @@ pub(super) struct PointBelow {
     pub(super) is_above_own: bool,
 }
 
+/// A sphere below a light.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SphereBelow {
+    /// The place of its center across the light.
+    pub(super) place: DVec2,
+    /// Its points lie no farther from there, and no lower than this along the light.
+    pub(super) reach: f64,
+    pub(super) lowest: f64,
+}
+
 /// A square across the light, and where a cell above it begins. Squares of its side times [`ROUNDING`] are
 /// normal numbers of single precision.
 #[derive(Clone, Copy, Debug)]
@@ -184,6 +194,48 @@ impl DiscGrid {
             self.starts[part + 1] = self.starts[part].div_ceil(LANES as u32);
         }
         self.starts[0] = 0;
+    }
+
+    /// Calls `take` with each disc that may keep the light from points of a sphere whose disc lies in the square: its
+    /// center, a radius with which it contains the true disc, and the sphere's index. Some discs come more than once.
+    #[inline(always)]
+    pub(super) fn each_before<S: Simd>(
+        &self,
+        simd: S,
+        sphere: &SphereBelow,
+        mut take: impl FnMut(DVec2, f64, u32),
+    ) {
+        /// More than the rounding of a sum of squares and of a square.
+        const WIDER: f32 = 1.0 + 16.0 * f32::EPSILON;
+        let place = sphere.place - self.low;
+        let last = f64::from(self.parts - 1);
+        let first = ((place - sphere.reach) * self.on_unit).clamp(DVec2::ZERO, DVec2::splat(last));
+        let end = ((place + sphere.reach) * self.on_unit).clamp(DVec2::ZERO, DVec2::splat(last));
+        let (x, y) = (place.x as f32, place.y as f32);
+        let reach = up(sphere.reach + self.rounding);
+        let lowest = -up(self.bottom - sphere.lowest);
+        for row in first.y as u32..=end.y as u32 {
+            for column in first.x as u32..=end.x as u32 {
+                let part = (row * self.parts + column) as usize;
+                let groups = self.starts[part] as usize..self.starts[part + 1] as usize;
+                for group in &self.groups[groups] {
+                    let aside = f32x8::simd_from(simd, group.x) - x;
+                    let above = f32x8::simd_from(simd, group.y) - y;
+                    let reach = (f32x8::simd_from(simd, group.radius) + reach) * WIDER;
+                    let top = f32x8::simd_from(simd, group.top);
+                    let distance_sq = aside * aside + above * above;
+                    let is_clear = distance_sq.simd_gt(reach * reach) | top.simd_lt(lowest);
+                    let mut left = !(is_clear.to_bitmask() as u8);
+                    while left != 0 {
+                        let lane = left.trailing_zeros() as usize;
+                        let center = DVec2::new(f64::from(group.x[lane]), f64::from(group.y[lane]));
+                        let radius = f64::from(group.radius[lane]);
+                        take(self.low + center, radius, group.sphere[lane]);
+                        left &= left - 1;
+                    }
+                }
+            }
+        }
     }
 
     /// The first and the last part to either side that a disc reaches into.

@@ -5,6 +5,8 @@
 //! leads through cells that become larger as soon as they fit, until nothing is above or the point is found
 //! to be in the dark. What ends in a cell is looked up when the first point comes along.
 
+mod above;
+
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
 

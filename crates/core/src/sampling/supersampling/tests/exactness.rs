@@ -323,13 +323,46 @@ fn light_is_that_of_single_rays() {
     }
 }
 
+/// The samples of a pixel are the same if they are taken together, also where rows of them do not fill the lanes.
+#[test]
+fn samples_of_one_pixel_are_those_of_many() {
+    let mut random = Random(18);
+    for step in 0..6 {
+        let world = lit_world(&mut random, [400, 3000][step % 2], step % 3 > 0);
+        let mut view = view_from(DVec3::new(0.1, 0.2, -2.0), (29, 21), 20.0, 5.0);
+        view.lens.shift = DVec2::new(3.0, -1.5) * (step % 2) as f64;
+        view.lens.pixel_aspect = [1.0, 0.7][step % 2];
+        if step == 5 {
+            view.lens = Lens::parallel(4.0, DVec2::ZERO);
+        }
+        let visibility = Visibility::new(&world);
+        let index = ViewIndex::new(&visibility, &view, RayPoints::All);
+        for samples in [4, 5, 6, 8] {
+            let of_crowds = |crowd| {
+                let samples = NonZeroU32::new(samples).unwrap();
+                let integrator = Supersampling {
+                    crowd,
+                    ..Supersampling::new(&world, &view, &index, samples, step % 2 == 0)
+                };
+                let mut pixels = Vec::new();
+                let mut scratch = Scratch::default();
+                for tile in tiles(&view, Tile::SIDE) {
+                    integrator.integrate(tile, &mut scratch, &mut pixels);
+                }
+                pixels
+            };
+            assert!(of_crowds(1) == of_crowds(usize::MAX), "{step}: {samples}");
+        }
+    }
+}
+
 #[test]
 fn processors_and_tiles_do_not_change_a_bit() {
     let mut random = Random(17);
     for step in 0..8 {
         let world = lit_world(&mut random, [4, 40, 400, 3000][step % 4], step % 2 == 0);
         let view = view_from(DVec3::new(0.1, 0.2, -2.0), (29, 21), 20.0, 5.0);
-        for samples in [1, 3] {
+        for samples in [1, 3, 4] {
             let expected = pixels(&world, &view, samples, Level::new(), Tile::SIDE);
             for level in levels() {
                 let found = pixels(&world, &view, samples, level, Tile::SIDE);
