@@ -2,7 +2,8 @@
 //!
 //! Tiles are small, and their rays go side by side: [`tile_balls`] finds the spheres that matter in a
 //! tile, [`trace`] what eight rays see of them ([`parallel`] where a lens is parallel), [`light`] how bright that is ([`outlines`] beside contours), [`centers`] where, and [`shadow`] where
-//! it is dark. All of it decides exactly or leaves the decision to what does, and computes with
+//! it is dark; [`sampler`] calls them in this order. The eight rays are those of eight pixels, or, in crowds, of one pixel
+//! ([`blocks`]). All of it decides exactly or leaves the decision to what does, and computes with
 //! one rounding an operation, so that a picture is the same to the bit on any processor, and
 //! however it is cut into tiles.
 

@@ -116,7 +116,7 @@ impl<'scene> Shadows<'scene> {
                 if discs.keeps() {
                     group.ball.has_many_samples || discs.knows(sphere)
                 } else {
-                    group.ball.has_many_samples && shadows.knows(simd, index, group.ball)
+                    group.ball.has_many_samples && shadows.knows(index, group.ball)
                 }
             };
             let side_by_side = self.visibility.is_moderate() && knows(self);
@@ -229,27 +229,25 @@ impl<'scene> Shadows<'scene> {
     }
 
     /// True if the discs are known that may darken points of a ball, in a world too large to keep them.
-    #[inline(always)]
-    fn knows<S: Simd>(&mut self, simd: S, light: usize, ball: &TileBall) -> bool {
+    fn knows(&mut self, light: usize, ball: &TileBall) -> bool {
         let known = self.of_ball(light, ball);
         if known >= self.of_balls.len() {
             self.of_balls.resize(known + 1, Before::Unasked);
         }
         if let Before::Unasked = self.of_balls[known] {
-            self.of_balls[known] = self.find_discs(simd, light, ball);
+            self.of_balls[known] = self.find_discs(light, ball);
         }
         matches!(self.of_balls[known], Before::Discs(..))
     }
 
     /// Finds the discs that may darken points of a ball.
-    #[inline(never)]
-    fn find_discs<S: Simd>(&mut self, simd: S, light: usize, ball: &TileBall) -> Before {
+    fn find_discs(&mut self, light: usize, ball: &TileBall) -> Before {
         let side = self.side(ball.ball.to_center.abs().max_element() * self.scale.length);
         let first = self.discs.len();
         let asked = (light, ball.index(), side);
         let is_known = self
             .cells
-            .discs_before(simd, self.visibility, asked, &mut self.discs);
+            .discs_before(self.visibility, asked, &mut self.discs);
         if !is_known {
             self.discs.truncate(first);
             return Before::Unknown;

@@ -290,6 +290,11 @@ impl<'world> Occluders<'world> {
         (self.right, self.up)
     }
 
+    /// The instructions that the processor has.
+    pub(super) fn level(&self) -> Level {
+        self.level
+    }
+
     /// The unit direction toward the light.
     pub(super) fn toward(&self) -> DVec3 {
         self.toward

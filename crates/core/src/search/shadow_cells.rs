@@ -87,6 +87,18 @@ impl Key {
         }
     }
 
+    /// The column that begins where the cell does.
+    fn column(&self) -> Self {
+        Self {
+            light: self.light | ENDLESS,
+            ..*self
+        }
+    }
+
+    fn is_column(&self) -> bool {
+        self.light & ENDLESS != 0
+    }
+
     /// True if the cell begins at the height at which that of the layer above does.
     fn is_low(&self) -> bool {
         self.place[2] & 1 == 0
@@ -180,22 +192,18 @@ impl ShadowCells {
         // Whether larger cells are to be tried, and how many were passed that are as large as this one.
         let (mut rises, mut passed) = (false, 0);
         loop {
+            let mut asked = key;
             if rises && key.is_low() {
                 let above = key.parent();
-                let column = Key {
-                    light: key.light | ENDLESS,
-                    ..above
-                };
-                let cell = self.cell(occluders, column);
-                if !cell.is_crowded {
-                    return Some(cell.grid.any(simd, point, &mut holds));
-                }
-                if !self.cell(occluders, above).is_crowded {
-                    key = above;
+                let column = above.column();
+                if !self.cell(occluders, column).is_crowded {
+                    asked = column;
+                } else if !self.cell(occluders, above).is_crowded {
+                    (key, asked) = (above, above);
                 }
                 passed = 0;
             }
-            let cell = self.cell(occluders, key);
+            let cell = self.cell(occluders, asked);
             if cell.is_crowded {
                 if key.exponent == least {
                     return None;
@@ -209,7 +217,7 @@ impl ShadowCells {
                 return Some(true);
             }
             key.place[2] += 1;
-            if key.place[2] as f64 * key.side() > highest {
+            if asked.is_column() || key.place[2] as f64 * key.side() > highest {
                 return Some(false);
             }
             passed += 1;
@@ -254,10 +262,10 @@ impl ShadowCells {
             side,
             margin: side * MARGIN,
         };
-        let (end, most) = if key.light & ENDLESS == 0 {
-            (z + side, MOST_DISCS)
-        } else {
+        let (end, most) = if key.is_column() {
             (f64::INFINITY, MOST_IN_COLUMN)
+        } else {
+            (z + side, MOST_DISCS)
         };
         cell.key = key;
         let found = occluders.find_high(&square, (z, end), most, &mut self.discs);

@@ -307,6 +307,13 @@ fn search(family: &Family, scenes: u64, options: &Options) -> Result<Vec<Scene>,
         let judging = start.elapsed().as_secs_f64();
         ulp::judge(&mut found, &draft, &subject, seed, &options.tolerances);
         let seconds = start.elapsed().as_secs_f64();
+        // A search that is stopped early has told what it found.
+        for broken in worst_of(&found, seed).filter_map(|(broken, fault)| {
+            let is_broken = !matches!(fault, Fault::GivenUp);
+            is_broken.then_some(broken)
+        }) {
+            let _ = writeln!(io::stderr(), "{} {index} is wrong: {broken}", family.name);
+        }
         let over: u64 = found.given_up.iter().sum();
         if over > 0 && !draft.kind.is_empty() {
             let _ = writeln!(

@@ -49,7 +49,7 @@ fn agrees(world: &World, points: [DVec3; 8], error: f64, known: &mut usize) -> u
         let mut above = Vec::new();
         // Below cells that are smaller than the sphere nothing is known about it.
         let side = world.spheres()[0].radius();
-        if cells.discs_before(simd, &visibility, (0, 0, side), &mut above) {
+        if cells.discs_before(&visibility, (0, 0, side), &mut above) {
             *known += 1;
             let found = darkened(simd, &visibility, (&lit, light), &above, 0xff);
             assert_eq!(found, expected, "above the whole sphere");

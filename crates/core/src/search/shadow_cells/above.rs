@@ -3,10 +3,10 @@
 //! In a crowd that is too large to keep the occluders of its spheres, a tile sees many points of some spheres. What may
 //! darken any of them is found once, and then tested for eight points side by side.
 
-use fearless_simd::Simd;
+use fearless_simd::{Level, dispatch};
 use glam::DVec2;
 
-use super::{ENDLESS, FEW_DISCS, Key, MOST_PASSED, ShadowCells, key};
+use super::{FEW_DISCS, Key, MOST_PASSED, ShadowCells, key};
 use crate::model::sphere::Sphere;
 use crate::search::disc_grid::{DiscGrid, PointBelow, SphereBelow};
 use crate::search::discs::{Disc, point_allowance};
@@ -28,9 +28,8 @@ impl ShadowCells {
     /// [`point_allowance`]; false, with any discs, if they are too many or those of several cells.
     ///
     /// `side` is about that of the region of points that are going to be asked about.
-    pub(crate) fn discs_before<S: Simd>(
+    pub(crate) fn discs_before(
         &mut self,
-        simd: S,
         visibility: &Visibility<'_>,
         (light, sphere, side): (usize, usize, f64),
         discs: &mut Vec<Disc>,
@@ -58,6 +57,7 @@ impl ShadowCells {
             own: sphere,
             place: below.place,
             around,
+            level: occluders.level(),
             first: discs.len(),
             discs,
         };
@@ -65,45 +65,44 @@ impl ShadowCells {
         let (mut rises, mut passed) = (false, 0);
         let highest = occluders.highest();
         loop {
-            let corner = DVec2::new(key.place[0] as f64, key.place[1] as f64) * key.side();
-            let to_corner = below.place - corner;
-            let is_inside = (to_corner - below.reach).cmpge(DVec2::ZERO).all()
-                && (to_corner + below.reach)
-                    .cmple(DVec2::splat(key.side()))
-                    .all();
-            if !is_inside {
+            if !key.contains(&below) {
                 return false;
             }
+            let mut asked = key;
             if rises && key.is_low() {
                 let larger = key.parent();
-                let column = Key {
-                    light: key.light | ENDLESS,
-                    ..larger
-                };
-                let cell = self.cell(occluders, column);
-                if !cell.is_crowded {
-                    above.add(simd, &cell.grid, &below);
-                    return !above.is_crowd();
-                }
-                if !self.cell(occluders, larger).is_crowded {
-                    key = larger;
+                let column = larger.column();
+                if !self.cell(occluders, column).is_crowded {
+                    asked = column;
+                } else if !self.cell(occluders, larger).is_crowded {
+                    (key, asked) = (larger, larger);
                 }
                 passed = 0;
             }
-            let cell = self.cell(occluders, key);
+            let cell = self.cell(occluders, asked);
             if cell.is_crowded {
                 return false;
             }
             let is_sparse = cell.count <= FEW_DISCS;
-            above.add(simd, &cell.grid, &below);
+            above.add(&cell.grid, &below);
             key.place[2] += 1;
-            let is_last = key.place[2] as f64 * key.side() > highest;
+            let is_last = asked.is_column() || key.place[2] as f64 * key.side() > highest;
             if is_last || above.is_crowd() {
                 return !above.is_crowd();
             }
             passed += 1;
             rises = is_sparse || passed >= MOST_PASSED;
         }
+    }
+}
+
+impl Key {
+    /// True if a sphere lies in the cell, seen along the light.
+    fn contains(&self, sphere: &SphereBelow) -> bool {
+        let corner = DVec2::new(self.place[0] as f64, self.place[1] as f64) * self.side();
+        let place = sphere.place - corner;
+        (place - sphere.reach).min_element() >= 0.0
+            && (place + sphere.reach).max_element() <= self.side()
     }
 }
 
@@ -115,6 +114,8 @@ struct Above<'a> {
     place: DVec2,
     /// How far its points are off.
     around: f64,
+    /// The instructions that the processor has.
+    level: Level,
     /// Those of the sphere, from the first.
     discs: &'a mut Vec<Disc>,
     first: usize,
@@ -127,16 +128,10 @@ impl Above<'_> {
     }
 
     /// Adds those of a cell.
-    #[inline(never)]
-    fn add<S: Simd>(&mut self, simd: S, grid: &DiscGrid, below: &SphereBelow) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                grid.each_before(simd, below, |center, radius, sphere| {
-                    self.take(center, radius, sphere);
-                });
-            },
-        );
+    fn add(&mut self, grid: &DiscGrid, below: &SphereBelow) {
+        dispatch!(self.level, simd => grid.each_before(simd, below, |center, radius, sphere| {
+            self.take(center, radius, sphere);
+        }));
     }
 
     /// Adds a disc once; not that of the sphere or of one that coincides with it, which n·l settles as for the sphere.
