@@ -3,10 +3,10 @@
 use fearless_simd::{Simd, dispatch};
 
 use super::light::splat;
+use super::places::{Places, ROWS};
 use super::rays::{Place, Rays, Spread};
-use super::sampler::Places;
 use super::sums::Sample;
-use super::supersampling::{ROWS, Scratch, Supersampling};
+use super::supersampling::{Scratch, Supersampling};
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::numeric::lanes::LANES;

@@ -4,11 +4,11 @@ use std::num::NonZeroU32;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::blocks::RowSamples;
 use super::centers::Centers;
 use super::light::{Shading, splat};
+use super::places::{Places, ROWS};
 use super::rays::{Place, Rays, Spread};
-use super::sampler::Places;
+use super::row_samples::RowSamples;
 use super::sums::{Sample, Sums};
 use super::tile_balls::TileBalls;
 use crate::model::color::Color;
@@ -24,9 +24,6 @@ use crate::picture::quantities::GeometrySettings;
 use crate::picture::tile::{Tile, TileLight};
 use crate::search::shadow_cells::ShadowCells;
 use crate::search::view_index::ViewIndex;
-
-/// Rows of a tile.
-pub(super) const ROWS: usize = Tile::SIDE as usize;
 
 /// The number of samples on a side of a pixel from which on eight samples of one pixel may be taken together.
 const LEAST_OF_BLOCKS: u32 = 4;

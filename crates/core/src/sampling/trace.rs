@@ -4,8 +4,8 @@ use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::groups::{Group, Groups};
+use super::places::Places;
 use super::rays::{LEAST_SQUARE, Place, Rays};
-use super::sampler::Places;
 use super::tile_balls::{TileBall, TileBalls};
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{LANES, f64x8, mask64x8};
