@@ -79,8 +79,15 @@ fn occluders_that_nearly_touch_the_light() {
         let toward = world.lights[0].toward().unwrap();
         let (center, radius) = (random.point() * 3.0, 1.0 + random.number());
         world.add_sphere(Sphere::new(center, radius).unwrap(), white);
-        let points: [DVec3; 8] = std::array::from_fn(|_| {
+        if step % 2 == 0 {
+            // It coincides, and darkens nothing that the sphere does not.
+            world.add_sphere(Sphere::new(center, radius).unwrap(), white);
+        }
+        let points: [DVec3; 8] = std::array::from_fn(|lane| {
+            // Two of them where the sphere turns away from the light.
+            let aside = if lane < 6 { DVec3::ZERO } else { toward };
             let normal = random.point().normalize();
+            let normal = (normal - aside * normal.dot(toward)).normalize();
             center + normal * (radius * normal.dot(toward).signum())
         });
         let occluders = if step % 3 == 0 { 200 } else { 8 };
