@@ -7,6 +7,7 @@
 //! one rounding an operation, so that a picture is the same to the bit on any processor, and
 //! however it is cut into tiles.
 
+mod ball_discs;
 mod blocks;
 mod centers;
 mod groups;

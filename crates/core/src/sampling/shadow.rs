@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
 
+use super::ball_discs::BallDiscs;
 use super::groups::Groups;
 use super::tile_balls::TileBall;
 use super::trace::{DISTANCE_ERROR, Sight};
@@ -25,19 +26,9 @@ pub(super) struct Shadows<'scene> {
     scale: Scale,
     /// The regions of surfaces that were asked for.
     regions: Vec<Region>,
-    /// In worlds too large to keep discs: those before each ball of the tile, for each light, once they were asked for.
-    of_balls: Vec<Before>,
-    discs: Vec<Disc>,
+    /// Those before the balls of the tile, in worlds too large to keep discs.
+    of_balls: BallDiscs,
     cells: &'scene mut ShadowCells,
-}
-
-/// The discs that may keep a light from a ball, as a range of all discs.
-#[derive(Clone, Copy, Debug)]
-enum Before {
-    Unasked,
-    Discs(u32, u32),
-    /// Too many, or of several cells.
-    Unknown,
 }
 
 /// The size of what a tile sees.
@@ -82,8 +73,7 @@ impl<'scene> Shadows<'scene> {
             viewpoint,
             scale,
             regions: Vec::new(),
-            of_balls: Vec::new(),
-            discs: Vec::new(),
+            of_balls: BallDiscs::new(visibility.lights().len()),
             cells,
         }
     }
@@ -112,14 +102,13 @@ impl<'scene> Shadows<'scene> {
             }
             let sphere = group.ball.index();
             let discs = self.visibility.light(index);
-            let knows = |shadows: &mut Self| {
-                if discs.keeps() {
-                    group.ball.has_many_samples || discs.knows(sphere)
+            let has_many = group.ball.has_many_samples;
+            let side_by_side = self.visibility.is_moderate()
+                && if discs.keeps() {
+                    has_many || discs.knows(sphere)
                 } else {
-                    group.ball.has_many_samples && shadows.knows(index, group.ball)
-                }
-            };
-            let side_by_side = self.visibility.is_moderate() && knows(self);
+                    has_many && self.finds_discs(index, group.ball)
+                };
             let mut alone = lanes;
             if side_by_side {
                 // Spheres lie far apart in memory: only here they are read.
@@ -212,9 +201,8 @@ impl<'scene> Shadows<'scene> {
     ) -> u64 {
         let visibility = self.visibility;
         let sphere = ball.index();
-        let known = self.of_balls.get(self.of_ball(index, ball));
-        let discs = if let Some(&Before::Discs(first, end)) = known {
-            &self.discs[first as usize..end as usize]
+        let discs = if let Some(discs) = self.of_balls.of(index, ball) {
+            discs
         } else if let Some(discs) = visibility.light(index).of_sphere(sphere) {
             discs
         } else {
@@ -223,36 +211,11 @@ impl<'scene> Shadows<'scene> {
         darkened(simd, visibility, (lit, light), discs, asked)
     }
 
-    /// The place of what is known about a ball.
-    fn of_ball(&self, light: usize, ball: &TileBall) -> usize {
-        ball.place as usize * self.visibility.lights().len() + light
-    }
-
     /// True if the discs are known that may darken points of a ball, in a world too large to keep them.
-    fn knows(&mut self, light: usize, ball: &TileBall) -> bool {
-        let known = self.of_ball(light, ball);
-        if known >= self.of_balls.len() {
-            self.of_balls.resize(known + 1, Before::Unasked);
-        }
-        if let Before::Unasked = self.of_balls[known] {
-            self.of_balls[known] = self.find_discs(light, ball);
-        }
-        matches!(self.of_balls[known], Before::Discs(..))
-    }
-
-    /// Finds the discs that may darken points of a ball.
-    fn find_discs(&mut self, light: usize, ball: &TileBall) -> Before {
-        let side = self.side(ball.ball.to_center.abs().max_element() * self.scale.length);
-        let first = self.discs.len();
-        let asked = (light, ball.index(), side);
-        let is_known = self
-            .cells
-            .discs_before(self.visibility, asked, &mut self.discs);
-        if !is_known {
-            self.discs.truncate(first);
-            return Before::Unknown;
-        }
-        Before::Discs(first as u32, self.discs.len() as u32)
+    fn finds_discs(&mut self, light: usize, ball: &TileBall) -> bool {
+        let distance = ball.ball.to_center.abs().max_element() * self.scale.length;
+        let asked = (light, ball, self.side(distance));
+        self.of_balls.find(self.visibility, self.cells, asked)
     }
 
     /// About the side of a tile at a distance.

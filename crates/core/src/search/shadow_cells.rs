@@ -194,13 +194,7 @@ impl ShadowCells {
         loop {
             let mut asked = key;
             if rises && key.is_low() {
-                let above = key.parent();
-                let column = above.column();
-                if !self.cell(occluders, column).is_crowded {
-                    asked = column;
-                } else if !self.cell(occluders, above).is_crowded {
-                    (key, asked) = (above, above);
-                }
+                asked = self.rise(occluders, &mut key);
                 passed = 0;
             }
             let cell = self.cell(occluders, asked);
@@ -223,6 +217,20 @@ impl ShadowCells {
             passed += 1;
             rises = is_sparse || passed >= MOST_PASSED;
         }
+    }
+
+    /// Takes the larger cell around a cell, if it is known; returns the cell to ask, which may be the column of that.
+    #[inline(always)]
+    fn rise(&mut self, occluders: &Occluders<'_>, key: &mut Key) -> Key {
+        let larger = key.parent();
+        let column = larger.column();
+        if !self.cell(occluders, column).is_crowded {
+            return column;
+        }
+        if !self.cell(occluders, larger).is_crowded {
+            *key = larger;
+        }
+        *key
     }
 
     /// The cell with this key.

@@ -70,13 +70,7 @@ impl ShadowCells {
             }
             let mut asked = key;
             if rises && key.is_low() {
-                let larger = key.parent();
-                let column = larger.column();
-                if !self.cell(occluders, column).is_crowded {
-                    asked = column;
-                } else if !self.cell(occluders, larger).is_crowded {
-                    (key, asked) = (larger, larger);
-                }
+                asked = self.rise(occluders, &mut key);
                 passed = 0;
             }
             let cell = self.cell(occluders, asked);
@@ -134,9 +128,13 @@ impl Above<'_> {
         }));
     }
 
-    /// Adds a disc once; not that of the sphere or of one that coincides with it, which n·l settles as for the sphere.
+    /// Adds a disc once, unless there are too many; not that of the sphere or of one that coincides with it, which n·l
+    /// settles as for the sphere.
     #[inline(never)]
     fn take(&mut self, center: DVec2, radius: f64, sphere: u32) {
+        if self.is_crowd() {
+            return;
+        }
         let own = &self.spheres[self.own];
         let is_known = |disc: &Disc| disc.sphere == sphere;
         if sphere as usize == self.own || self.discs[self.first..].iter().any(is_known) {
