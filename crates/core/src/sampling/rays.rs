@@ -60,6 +60,12 @@ pub(super) enum Spread {
 pub(super) const BLOCK_COLS: u32 = 4;
 pub(super) const BLOCK_ROWS: u32 = LANES as u32 / BLOCK_COLS;
 
+/// The columns and rows of these cells, from the first.
+const BLOCK_STEPS: [[f64; LANES]; 2] = [
+    [0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0],
+    [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0],
+];
+
 /// The place of eight samples: the first pixel, and the first cell in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
@@ -200,10 +206,16 @@ impl Rays {
     /// The directions of eight samples of one pixel, divided by that power.
     #[inline(always)]
     pub(super) fn directions_in_pixel<S: Simd>(&self, simd: S, place: Place) -> Vectors<S> {
-        let [u, v] = self.twice_in_pixel(place);
+        let [u, v] = match place.spread {
+            Spread::Block => self.twice_in_block(simd, place),
+            Spread::Pixels | Spread::Strata => {
+                let [u, v] = self.twice_in_pixel(place);
+                [f64x8::from_array(simd, u), f64x8::from_array(simd, v)]
+            }
+        };
         let shift = self.view.lens.shift;
-        let u = f64x8::from_array(simd, u) * self.half_cell.x + shift.x;
-        let v = f64x8::from_array(simd, v) * -self.half_cell.y + shift.y;
+        let u = u * self.half_cell.x + shift.x;
+        let v = v * -self.half_cell.y + shift.y;
         let axes = &self.view.camera.world_from_camera;
         let forward = axes.z_axis * self.magnification;
         Vectors {
@@ -211,6 +223,21 @@ impl Rays {
             y: (u * axes.x_axis.y + v * axes.y_axis.y + forward.y) * self.scale,
             z: (u * axes.x_axis.z + v * axes.y_axis.z + forward.z) * self.scale,
         }
+    }
+
+    /// The same as [`Self::twice_in_pixel`] for a block of cells.
+    #[inline(always)]
+    fn twice_in_block<S: Simd>(&self, simd: S, place: Place) -> [f64x8<S>; 2] {
+        let cols = f64x8::from_array(simd, BLOCK_STEPS[0]);
+        let rows = f64x8::from_array(simd, BLOCK_STEPS[1]);
+        let last_col = f64::from(self.side - 1 - place.cell_col);
+        let last_row = f64::from(self.side - 1 - place.cell_row);
+        let first_col = self.twice(place.col, place.cell_col, self.view.width);
+        let first_row = self.twice(place.row, place.cell_row, self.view.height);
+        [
+            cols.min(f64x8::splat(simd, last_col)) * 2.0 + first_col,
+            rows.min(f64x8::splat(simd, last_row)) * 2.0 + first_row,
+        ]
     }
 
     /// Twice the distances, in cells, of eight samples of one pixel from the middle, to the right and down.

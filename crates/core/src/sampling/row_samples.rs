@@ -56,8 +56,10 @@ impl RowSamples {
         let width = COLS.min(self.side - col);
         for (row, numbers) in (row..self.side).zip(numbers.chunks_exact(COLS)) {
             let first = ((channel * LANES + column) * self.side + row) * self.side + col;
-            for (cell, &number) in self.numbers[first..].iter_mut().zip(&numbers[..width]) {
-                *cell = number;
+            if width == COLS {
+                self.numbers[first..first + COLS].copy_from_slice(numbers);
+            } else {
+                self.numbers[first..first + width].copy_from_slice(&numbers[..width]);
             }
         }
     }
