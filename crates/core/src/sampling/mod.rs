@@ -9,6 +9,7 @@
 
 mod ball_discs;
 mod blocks;
+mod bundle;
 mod centers;
 mod groups;
 mod last_places;

@@ -79,6 +79,7 @@ impl Supersampling<'_> {
                     length,
                     tile_side: rays.tile_side(),
                     projection: rays.projection(),
+                    are_samples_dense: rays.are_dense(),
                 };
                 let viewpoint = self.view.camera.position;
                 Shadows::new(&self.index.visibility, viewpoint, size, cells)

@@ -39,6 +39,8 @@ pub(super) struct Scale {
     /// About the side of a tile at the distance of 1, or through a parallel lens at any.
     pub(super) tile_side: f64,
     pub(super) projection: Projection,
+    /// Whether balls have many samples in a tile.
+    pub(super) are_samples_dense: bool,
 }
 
 /// A part of a sphere, and the discs that may darken it.
@@ -107,7 +109,7 @@ impl<'scene> Shadows<'scene> {
                 && if discs.keeps() {
                     has_many || discs.knows(sphere)
                 } else {
-                    has_many && self.finds_discs(index, group.ball)
+                    has_many && self.scale.are_samples_dense && self.finds_discs(index, group.ball)
                 };
             let mut alone = lanes;
             if side_by_side {

@@ -25,9 +25,6 @@ use crate::picture::tile::{Tile, TileLight};
 use crate::search::shadow_cells::ShadowCells;
 use crate::search::view_index::ViewIndex;
 
-/// The number of samples on a side of a pixel from which on eight samples of one pixel may be taken together.
-const LEAST_OF_BLOCKS: u32 = 4;
-
 /// The number of balls in a tile from which on they are: few of eight pixels beside each other see the same ball then.
 const CROWD: usize = 16;
 
@@ -218,7 +215,7 @@ impl<'scene> Supersampling<'scene> {
         }: &mut Scratch,
     ) -> Option<u64> {
         let side = self.samples.get();
-        let may_take_blocks = side >= LEAST_OF_BLOCKS && self.centers.is_none();
+        let may_take_blocks = self.rays.are_dense() && self.centers.is_none();
         self.gather(simd, &self.rays, (tile, may_take_blocks), balls);
         let memory = (shadow_cells, geometry);
         let mut sampler = self.sampler(&self.rays, tile, balls, memory)?;

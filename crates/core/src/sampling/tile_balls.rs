@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use fearless_simd::Simd;
 
-use super::rays::{Bundle, Cone, Lines};
+use super::bundle::{Bundle, Cone, Lines};
 use crate::hit::ball::Ball;
 use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;

@@ -14,6 +14,7 @@ const SCALE: Scale = Scale {
     length: 1.0,
     tile_side: 0.1,
     projection: Projection::Central,
+    are_samples_dense: true,
 };
 
 /// Points on the first of a world's spheres, the first light, and how far they are off; counts what is known above the
