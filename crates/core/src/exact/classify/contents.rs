@@ -211,7 +211,9 @@ impl Contents {
         for position in 0..self.active.len() {
             let active = self.active[position];
             let is_outside = active.ball.outside > 0.0;
-            if is_outside && active.discriminant.may_vanish() {
+            // From inside, rays of a pinhole meet a sphere everywhere; parallel ones as far as its contour.
+            let may_be_passed = is_outside || cell.is_parallel();
+            if may_be_passed && active.discriminant.may_vanish() {
                 let kind = Kind::Silhouette(position);
                 self.conics.push((kind, active.discriminant));
             }

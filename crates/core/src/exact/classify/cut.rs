@@ -215,8 +215,8 @@ impl Contents {
         });
     }
 
-    /// The one sphere that some rays of the cell begin inside of, and others not, if all of them meet it: then the cell is
-    /// known by its [`CutSide`]s.
+    /// The one sphere that some rays of the cell begin inside of, and others not, if the cell is not beside it: then the cell
+    /// is known by its [`CutSide`]s. Its contour may lie in the cell, so near to the cap's that no parts tell them apart.
     pub(crate) fn divided_by(&self, cell: &Cell) -> Option<usize> {
         let [(sphere, ball)] = self.cut[..] else {
             return None;
@@ -226,6 +226,6 @@ impl Contents {
         let moved = ROUNDINGS * ball.contour_scale(cell) * ball.radius;
         let slack = GEOMETRY_SLACK * (spread + one.abs()) + 4.0 * moved;
         let is_known = self.is_mixed && !self.is_crowded && self.side.is_none();
-        (is_known && one - spread - slack > 0.0).then_some(sphere)
+        (is_known && (one - spread - slack > 0.0 || discriminant.may_vanish())).then_some(sphere)
     }
 }
