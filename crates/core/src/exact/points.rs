@@ -114,3 +114,29 @@ impl<S: Simd> Points<S> {
         }
     }
 }
+
+/// The places where rays meet a ball, from the roots of their discriminants: those of negative ones lie on its far side.
+/// Parallel rays are given by where they begin.
+#[inline(always)]
+pub(crate) fn places_of_roots<S: Simd>(
+    ball: &Ball,
+    ray: &Vectors<S>,
+    root: f64x8<S>,
+) -> Vectors<S> {
+    let z = ball.center.z;
+    if !ball.is_parallel() {
+        let along = ray.dot_one(ball.center) + root;
+        return ray.times((ray.z * 0.0 + ball.outside) / along);
+    }
+    let depth = if ball.is_apart() {
+        root * -1.0 + z
+    } else {
+        let (x, y) = (ray.x - 2.0 * ball.center.x, ray.y - 2.0 * ball.center.y);
+        (ray.x * x + ray.y * y + ball.power) / (root + z)
+    };
+    Vectors {
+        x: ray.x,
+        y: ray.y,
+        z: depth,
+    }
+}

@@ -15,7 +15,7 @@ use super::chord::Chord;
 use super::plain::{normal_times, ray_times};
 use super::primitive::{EIGHT, Lines, Noise, SIX, Sender, Summed};
 use crate::edges::terminator::Plane;
-use crate::exact::points::Points;
+use crate::exact::points::places_of_roots;
 use crate::exact::scene::Light;
 use crate::light::lobe::Beyond;
 use crate::numeric::bits::set_bits;
@@ -258,8 +258,10 @@ impl<S: Simd> Integrand<'_, '_, S> {
         let power = match &self.light.near {
             None => diffuse.of(normal[0].dot_one(self.light.toward)),
             Some(near) => {
-                let points = Points::new(simd, &active.ball, ray.times(one / at.denominator));
-                let (toward, factor) = near.seen_from(&points.place(), Beyond::Continued);
+                // A root beyond the contour lies on the far side: the way of light goes on there, too.
+                let inverse = one / at.denominator;
+                let places = places_of_roots(&active.ball, &ray.times(inverse), at.root * inverse);
+                let (toward, factor) = near.seen_from(&places, Beyond::Continued);
                 diffuse.of(normal[0].dot(&toward)) * factor
             }
         };
