@@ -9,6 +9,9 @@ pub(super) struct Seed {
     pub(super) bytes: Vec<u8>,
 }
 
+/// How often a scene in JSON is among the scenes.
+const IN_JSON: usize = 20;
+
 /// The repository.
 pub(super) fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -20,6 +23,8 @@ pub(super) fn scenes() -> Vec<Seed> {
     let whole = ["scenes", "scenes/original"].into_iter().cycle().take(20);
     let folders = whole.chain(["tests/seeds/scenes", "tests/broken"]);
     let all = folders.flat_map(|folder| files(folder, "ron"));
+    let in_json = std::iter::repeat_n("tests/seeds/scenes", IN_JSON);
+    let all = all.chain(in_json.flat_map(|folder| files(folder, "json")));
     // Longer ones would take most of the time.
     all.filter(|seed| seed.bytes.len() < 8_000).collect()
 }

@@ -5,8 +5,14 @@ use std::path::Path;
 
 use marbles_scene::COMPRESSED_ENDINGS;
 
-/// The name of the file at `path` without its extension, and without that of a compression.
+/// The path of a scene that is read from the standard input.
+pub(crate) const STANDARD_INPUT: &str = "-";
+
+/// The name of the file at `path` without its extension, and without that of a compression; `scene` for the standard input.
 pub(crate) fn scene_name(path: &Path) -> &OsStr {
+    if path == Path::new(STANDARD_INPUT) {
+        return OsStr::new("scene");
+    }
     let stem = path.file_stem().unwrap_or_default();
     let ending = path.extension().unwrap_or_default();
     let is_compressed = COMPRESSED_ENDINGS
@@ -27,6 +33,7 @@ mod tests {
         for (path, name) in [
             ("out/ball.ron", "ball"),
             ("water.xyz", "water"),
+            ("-", "scene"),
             ("water.xyz.gz", "water"),
             ("run.0005.csv.ZST", "run.0005"),
             ("water.pdb.bz2", "water"),

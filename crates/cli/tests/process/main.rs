@@ -39,6 +39,7 @@ mod sequences;
 mod series;
 mod sidecar;
 mod signals;
+mod standard_input;
 #[cfg(target_os = "linux")]
 mod terminal;
 mod tiff;

@@ -1,7 +1,8 @@
 //! The way from a scene file to a scene.
 
+use std::borrow::Cow;
 use std::fs::File as OpenFile;
-use std::io::{self, ErrorKind, Read as _};
+use std::io::{ErrorKind, Read as _};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -9,6 +10,7 @@ use std::sync::Arc;
 use super::other_file::{self, Kind};
 use super::oversights;
 use super::own_camera::AsWritten;
+use super::read::{BLOCK, LARGEST_FILE, STANDARD_INPUT, read_at_most, read_standard_input};
 use super::refused::refused;
 use super::setting::Setting;
 use super::{Description, Scene};
@@ -16,16 +18,11 @@ use crate::figure::Figure;
 use crate::file::{Camera, File, Materials};
 use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
-use crate::text::{Fault, Placed, Read, Slice, collect, optional, reason, set, token};
+use crate::text::{
+    Fault, Placed, Read, Slice, collect, is_json, optional, reason, set, to_ron, token,
+};
 use crate::values::{MOST_FRAMES, MaterialName};
 use crate::world::{self, Cloud, OpenCloud, Part, Progress, Series, Step};
-
-/// The largest scene file that is read, in bytes: more than ten million spheres take, and a limit
-/// for files that never end.
-const LARGEST_FILE: u64 = 1 << 30;
-
-/// Bytes that are read at a time.
-const BLOCK: u64 = 1 << 20;
 
 impl Scene {
     /// Reads and checks the scene file at `path`, and the tables that it names.
@@ -54,7 +51,7 @@ impl Scene {
     }
 
     /// Loads a scene file as [`Self::load_with`] does, with the values that `figure` replaces; or loads the figure of a
-    /// table of particles.
+    /// table of particles. The path `-` is that of a scene in the standard input, whose tables are in the current folder.
     ///
     /// # Errors
     /// As [`Self::load_with`].
@@ -72,13 +69,19 @@ impl Scene {
             let reason = "expected a scene file, found a named pipe";
             return Err(SceneError::unreadable(path, reason));
         }
-        if let Some(name) = table_name(path)? {
+        let is_input = path == Path::new(STANDARD_INPUT);
+        if !is_input && let Some(name) = table_name(path)? {
             let text = figure.scene_text(path, &name);
             let own_path = path.with_file_name(format!("{name} (its scene)"));
             let scene = Self::parse_with(&text, &own_path, settings, watch);
             return scene.map_err(SceneError::of_table_alone);
         }
-        let bytes = read_at_most(path, LARGEST_FILE).map_err(|error| {
+        let bytes = if is_input {
+            read_standard_input()
+        } else {
+            read_at_most(path, LARGEST_FILE)
+        };
+        let bytes = bytes.map_err(|error| {
             let why = match error.kind() {
                 ErrorKind::NotFound => "no such file",
                 ErrorKind::PermissionDenied => "no permission to read this file",
@@ -151,7 +154,7 @@ impl Scene {
     /// # Errors
     /// Refuses everything that the format does not allow.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
-        Self::parse_watched(text, path, &|_| {})
+        Self::parse_with(text, path, &[], &|_| {})
     }
 
     /// Checks a scene file's text with the values of `settings` in place of its own.
@@ -161,33 +164,41 @@ impl Scene {
         settings: &[Setting],
         watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Self, SceneError> {
+        let shown = without_byte_order_mark(text);
+        let ron = if is_json(shown) {
+            let ron = to_ron(shown);
+            Cow::Owned(ron.map_err(|fault| SceneError::refused(path, shown, vec![fault]))?)
+        } else {
+            Cow::Borrowed(shown)
+        };
         if settings.is_empty() {
-            return Self::parse_watched(text, path, watch);
+            return Self::parse_watched(&ron, shown, path, watch);
         }
-        let mut text = without_byte_order_mark(text).to_owned();
+        let mut text = ron.into_owned();
         for Setting { path: at, value } in settings {
             text = set(&text, at, value).map_err(|message| {
                 let message = format!("--set {at}: {message}");
                 SceneError::unreadable(path, &message)
             })?;
         }
-        Self::parse_watched(&text, path, watch)
+        Self::parse_watched(&text, &text, path, watch)
     }
 
+    /// Checks a text in RON; messages show another one, with the same places.
     fn parse_watched(
         text: &str,
+        shown: &str,
         path: &Path,
         watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Self, SceneError> {
-        let text = without_byte_order_mark(text);
         let (draft, faults) = collect(text, || {
             let start = token::skip_trivia(text, 0);
             let file = File::read(Slice::of_text_being_read(&text[start..]))?;
             Draft::new(&file, text)
         });
         match draft {
-            Some(draft) if faults.is_empty() => draft.finish(text, path, watch),
-            _ => Err(SceneError::refused(path, text, faults)),
+            Some(draft) if faults.is_empty() => draft.finish(shown, path, watch),
+            _ => Err(SceneError::refused(path, shown, faults)),
         }
     }
 }
@@ -365,30 +376,6 @@ fn table_name(path: &Path) -> Result<Option<String>, SceneError> {
         SceneError::unreadable(path, message)
     })?;
     Ok(Some(name.to_owned()))
-}
-
-/// The bytes of a file that has at most `most`, up to the first of 0; [`ErrorKind::FileTooLarge`] where it has more.
-fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let file = OpenFile::open(path)?;
-    let mut bytes = Vec::new();
-    // What the size says is not always so: devices and pipes have none.
-    let size = file.metadata()?.len();
-    if size <= most {
-        let mut rest = file.take(most + 1);
-        let mut seen = 0;
-        // No text has a byte of 0: what has one may never end.
-        while rest.by_ref().take(BLOCK).read_to_end(&mut bytes)? > 0 {
-            if let Some(zero) = bytes[seen..].iter().position(|&byte| byte == 0) {
-                bytes.truncate(seen + zero + 1);
-                return Ok(bytes);
-            }
-            seen = bytes.len();
-        }
-    }
-    if size.max(bytes.len() as u64) > most {
-        return Err(ErrorKind::FileTooLarge.into());
-    }
-    Ok(bytes)
 }
 
 /// The text behind a byte order mark.

@@ -7,6 +7,7 @@ mod orbit;
 mod other_file;
 mod oversights;
 mod own_camera;
+mod read;
 mod references;
 mod refused;
 mod setting;

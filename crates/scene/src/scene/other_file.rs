@@ -27,7 +27,7 @@ pub(super) fn kind(path: &Path, head: &[u8]) -> Kind {
     let is_named_so = path.extension().is_some_and(|ending| ending == "ron");
     // Zstandard's first byte is a parenthesis, and so may that of a table's title be.
     let is_table = is_compressed(head) || !is_named_so && Format::is_certain(path, head);
-    let is_open = start.starts_with('(') && !is_table;
+    let is_open = start.starts_with(['(', '{']) && !is_table;
     if is_open || is_named_so && start.starts_with('#') {
         return Kind::Scene;
     }

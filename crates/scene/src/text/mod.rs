@@ -3,6 +3,7 @@
 mod edit;
 mod explain;
 mod fault;
+mod json;
 mod located;
 mod placed;
 mod raw;
@@ -13,6 +14,7 @@ pub(crate) mod token;
 
 pub(crate) use edit::{append_after, set, value_at};
 pub(crate) use fault::{Fault, Names, collect, note_failure, refuse};
+pub(crate) use json::{is_json, to_ron};
 pub(crate) use located::{LocatedFault, Place};
 pub(crate) use placed::{
     Placed, Read, optional, present, read_file, read_simple, read_structure, read_tuple,

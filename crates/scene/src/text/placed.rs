@@ -153,7 +153,7 @@ pub(crate) fn read_simple<'t, T: Deserialize<'t>>(slice: Slice<'t>, expected: &s
     parse(slice.text).ok().or_else(|| slice.refuse(expected))
 }
 
-/// Reads a tuple of `N` values.
+/// Reads a tuple of `N` values, or a list of as many.
 pub(crate) fn read_tuple<'t, T: Read<'t>, const N: usize>(
     slice: Slice<'t>,
     expected: &str,
@@ -163,6 +163,13 @@ where
 {
     let values = match plain_parts(slice) {
         Some(parts) => parts.map(T::read),
+        None if slice.text.starts_with('[') => {
+            let list: Vec<Placed<T>> = read_simple(slice, expected)?;
+            let Ok(values) = <[Placed<T>; N]>::try_from(list) else {
+                return slice.refuse(expected);
+            };
+            values.map(|placed| placed.value)
+        }
         None => read_simple::<[Placed<T>; N]>(slice, expected)?.map(|placed| placed.value),
     };
     // A fault in the first value must not keep the others from being read.
@@ -173,7 +180,12 @@ where
 /// The parts of a tuple of `N` numbers without comments or anything unusual: what nearly all are,
 /// without the detour over `ron`.
 fn plain_parts<const N: usize>(slice: Slice<'_>) -> Option<[Slice<'_>; N]> {
-    let inside = slice.text.strip_prefix('(')?.strip_suffix(')')?;
+    let text = slice.text;
+    let inside = match text.as_bytes().first()? {
+        b'(' => text[1..].strip_suffix(')')?,
+        b'[' => text[1..].strip_suffix(']')?,
+        _ => return None,
+    };
     let is_usual = |byte: u8| byte.is_ascii_digit() || b"+-.eE, ".contains(&byte);
     if !inside.bytes().all(is_usual) {
         return None;

@@ -28,7 +28,7 @@ impl<'t> Read<'t> for Color {
             let color = from_hexadecimal(&text).or_else(|| color_name::find(&text).map(from_srgb));
             return color.map(Self).or_else(|| refuse_text(slice, &text));
         }
-        if slice.text.starts_with('(') {
+        if slice.text.starts_with(['(', '[']) {
             let [red, green, blue]: [ColorChannel; 3] = read_tuple(slice, ANY_FORM)?;
             return Some(Self(DVec3::new(red.0, green.0, blue.0)));
         }

@@ -3,23 +3,34 @@
 use glam::DMat3;
 use marbles_core::{RotationError, nearest_rotation};
 
+use super::point::Point;
 use super::quantity::Coordinate;
 use crate::text::{Placed, Read, Slice, read_simple, refuse};
 
-/// The rotation next to a matrix that the file has as nine numbers, row by row.
+/// The rotation next to a matrix that the file has as nine numbers row by row, or as three rows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rotation(pub(crate) DMat3);
 
 impl<'t> Read<'t> for Rotation {
     fn read(slice: Slice<'t>) -> Option<Self> {
         let expected = "a rotation matrix, nine numbers `[…]` row by row";
-        let entries: Vec<Placed<Coordinate>> = read_simple(slice, expected)?;
         let refused =
             |found: &str| refuse(slice.place(), format!("expected {expected}, found {found}"));
-        let entries: Vec<f64> = entries
-            .iter()
-            .map(|entry| Some(entry.get()?.0))
-            .collect::<Option<_>>()?;
+        let has_rows = slice
+            .text
+            .get(1..)
+            .unwrap_or_default()
+            .trim_ascii_start()
+            .starts_with(['(', '[']);
+        let entries: Vec<f64> = if has_rows {
+            let rows: Vec<Placed<Point>> = read_simple(slice, expected)?;
+            let row = |row: &Placed<Point>| Some(row.get()?.0.to_array());
+            rows.iter().map(row).collect::<Option<Vec<_>>>()?.concat()
+        } else {
+            let entries: Vec<Placed<Coordinate>> = read_simple(slice, expected)?;
+            let entry = |entry: &Placed<Coordinate>| Some(entry.get()?.0);
+            entries.iter().map(entry).collect::<Option<_>>()?
+        };
         let Ok(rows) = <[f64; 9]>::try_from(entries.as_slice()) else {
             return refused(&format!("{} of them", entries.len()));
         };

@@ -61,8 +61,8 @@ pub(crate) enum PerLight {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct RenderArguments {
-    /// Scene file, or table of particles, such as a PDB, XYZ, CSV or LAMMPS file; if you give several, they are rendered
-    /// one after another
+    /// Scene file, table of particles, such as a PDB, XYZ, CSV or LAMMPS file, or `-` for a scene from the standard input;
+    /// if you give several, they are rendered one after another
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
 

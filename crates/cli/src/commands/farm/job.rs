@@ -5,6 +5,7 @@ use std::num::NonZeroU32;
 use std::path::{self, Path};
 
 use crate::base::failure::Failure;
+use crate::base::scene_name::STANDARD_INPUT;
 use crate::base::threads;
 use crate::commands::args::JobArguments;
 use crate::commands::inputs::Inputs;
@@ -45,6 +46,11 @@ impl Job {
                 "expected one scene, found several".to_owned(),
             ));
         };
+        if scene.as_path() == Path::new(STANDARD_INPUT) {
+            let message =
+                "expected the file of a scene, which every task reads, found the standard input";
+            return Err(Failure::Usage(message.to_owned()));
+        }
         let request = request(render, scene, &threads::start(None)?, console)?;
         if request.is_animation() {
             return Err(Failure::Usage(

@@ -9,11 +9,14 @@ mod sixel;
 mod stored;
 mod watch;
 
+use std::path::Path;
+
 use self::picture::render;
 use self::screen::Screen;
 use super::args::PreviewArguments;
 use super::scene;
 use crate::base::failure::Failure;
+use crate::base::scene_name::STANDARD_INPUT;
 use crate::base::size::Size;
 use crate::base::{status, threads};
 use crate::terminal::console::Console;
@@ -34,6 +37,10 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
     }
     let threads = threads::start(None)?;
     if arguments.watch {
+        if arguments.scene.as_path() == Path::new(STANDARD_INPUT) {
+            let message = "--watch: expected the file of a scene, found the standard input";
+            return Err(Failure::Usage(message.to_owned()));
+        }
         return parallel::install(&threads, || watch::run(arguments, &screen, console));
     }
     if screen.is_terminal && !arguments.once && Keyboard::is_there() {

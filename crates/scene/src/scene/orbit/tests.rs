@@ -241,6 +241,16 @@ fn some_cameras_cannot_be_turned() {
     assert_eq!(away.orbit_camera(1), Err(Unturnable::NothingSeen));
 }
 
+#[test]
+fn cameras_are_written_into_scenes_in_ron_only() {
+    let json = r#"{"image": {"width": 9, "height": 9}, "lens": {"Fov": 40}, "camera": {"Frame": {}},
+        "spheres": [{"center": [0, 0, 0], "radius": 1}]}"#;
+    let camera = parse(json).orbit_camera(1).unwrap();
+    let refused = Err("expected a scene in RON, found one in JSON".to_owned());
+    assert_eq!(camera.put_into(json), refused);
+    assert_eq!(camera.put_zoom_into(json), refused);
+}
+
 /// Around a ball in the middle of the picture, a wall behind it fills most of the picture. A ball at the edge is what is
 /// seen if there is nothing else.
 #[test]

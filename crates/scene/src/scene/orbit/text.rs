@@ -1,7 +1,15 @@
 //! The camera in the text of a scene file.
 
 use super::{OrbitCamera, OrbitCenter};
-use crate::text::{append_after, set, value_at};
+use crate::text::{append_after, is_json, set, value_at};
+
+/// Edits are those of texts in RON.
+fn refuse_json(text: &str) -> Result<(), String> {
+    if is_json(text) {
+        return Err("expected a scene in RON, found one in JSON".to_owned());
+    }
+    Ok(())
+}
 
 /// The field of the camera, and that of the zoom.
 const CAMERA: &str = "camera";
@@ -14,8 +22,9 @@ impl OrbitCamera {
     /// becomes an `Orbit`. A zoom that the text does not have is written behind the camera.
     ///
     /// # Errors
-    /// Returns what was expected if the text has no camera.
+    /// Returns what was expected if the text has no camera, or is in JSON.
     pub fn put_into(&self, text: &str) -> Result<String, String> {
+        refuse_json(text)?;
         let camera = value_at(text, CAMERA)
             .ok_or_else(|| "expected a field `camera`, found none".to_owned())?;
         let kind = camera.split(|letter: char| !letter.is_ascii_alphanumeric());
@@ -39,6 +48,7 @@ impl OrbitCamera {
     /// # Errors
     /// As [`Self::put_into`].
     pub fn put_zoom_into(&self, text: &str) -> Result<String, String> {
+        refuse_json(text)?;
         if number_at(text, ZOOM, 1.0) == Some(self.zoom) {
             return Ok(text.to_owned());
         }
