@@ -13,6 +13,7 @@
 
 use super::chord::Chord;
 use super::plain::{normal_times, ray_times};
+use super::power_rules::PowerRules;
 use super::primitive::{EIGHT, Lines, Noise, SIX, Sender, Summed};
 use crate::edges::terminator::Plane;
 use crate::exact::points::places_of_roots;
@@ -54,6 +55,12 @@ struct Part<S: Simd> {
 struct Integral<S: Simd> {
     value: f64x8<S>,
     doubt: f64x8<S>,
+}
+
+/// The nodes and the weights of a rule for a power, and of that which takes its place where none begins.
+struct Nodes<'a> {
+    of_power: (&'a [f64], &'a [f64]),
+    plain: &'a [(f64, f64)],
 }
 
 /// A root that is farther than this in multiples of a chord is as good as none.
@@ -204,7 +211,6 @@ impl<S: Simd> Integrand<'_, '_, S> {
     }
 
     /// The integral from one place to another, in some lanes by the rule for a power that begins at the first.
-    #[inline(never)]
     fn stretch(
         &self,
         simd: S,
@@ -213,27 +219,45 @@ impl<S: Simd> Integrand<'_, '_, S> {
         from_root: mask64x8<S>,
         noise: &mut Noise,
     ) -> Integral<S> {
+        let PowerRules { fine, coarse, .. } = self.sender.rules;
+        let way = (start, end - start);
+        let fine = Nodes {
+            of_power: (&fine.nodes, &fine.weights),
+            plain: &EIGHT,
+        };
+        let coarse = Nodes {
+            of_power: (&coarse.nodes, &coarse.weights),
+            plain: &SIX,
+        };
+        let [fine, coarse] =
+            [fine, coarse].map(|rule| self.by_rule(simd, way, &rule, from_root, noise));
+        let width = way.1.abs();
+        Integral {
+            value: fine * width,
+            doubt: ((fine - coarse) * width).abs(),
+        }
+    }
+
+    /// The average on the way from a place, in some lanes by the rule for a power that begins there.
+    #[inline(never)]
+    fn by_rule(
+        &self,
+        simd: S,
+        (start, way): (f64x8<S>, f64x8<S>),
+        rule: &Nodes<'_>,
+        from_root: mask64x8<S>,
+        noise: &mut Noise,
+    ) -> f64x8<S> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let rules = self.sender.rules;
-                let way = end - start;
-                let width = way.abs();
-                let (mut fine, mut coarse) = (width * 0.0, width * 0.0);
-                for (index, plain) in EIGHT.into_iter().enumerate() {
-                    let of_power = (rules.fine.nodes[index], rules.fine.weights[index]);
-                    let (node, weight) = chosen(simd, from_root, of_power, plain);
-                    fine += self.value(simd, start + way * node, noise) * weight;
+                let (nodes, weights) = rule.of_power;
+                let mut sum = way.abs() * 0.0;
+                for ((of_power, weight), plain) in nodes.iter().zip(weights).zip(rule.plain) {
+                    let (node, weight) = chosen(simd, from_root, (*of_power, *weight), *plain);
+                    sum += self.value(simd, start + way * node, noise) * weight;
                 }
-                for (index, plain) in SIX.into_iter().enumerate() {
-                    let of_power = (rules.coarse.nodes[index], rules.coarse.weights[index]);
-                    let (node, weight) = chosen(simd, from_root, of_power, plain);
-                    coarse += self.value(simd, start + way * node, noise) * weight;
-                }
-                Integral {
-                    value: fine * width,
-                    doubt: ((fine - coarse) * width).abs(),
-                }
+                sum
             },
         )
     }
