@@ -18,6 +18,7 @@ mod geometry;
 mod hits;
 mod huge_floors;
 mod invariance;
+mod json;
 mod known;
 mod laws;
 mod layers;
