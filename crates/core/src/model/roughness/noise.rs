@@ -89,12 +89,22 @@ impl Cell {
 
     /// The second derivative along an axis, which is the same all along it, at an offset from the lattice point.
     pub(super) fn bend(&self, axis: usize, offset: [f64; 3]) -> [f64; 3] {
+        match axis {
+            0 => self.bend_along::<0>(offset),
+            1 => self.bend_along::<1>(offset),
+            _ => self.bend_along::<2>(offset),
+        }
+    }
+
+    /// The same along an axis that the compiler knows, and with it the places of all coefficients.
+    #[inline(always)]
+    fn bend_along<const AXIS: usize>(&self, offset: [f64; 3]) -> [f64; 3] {
         // How far the coefficients of powers of x, y and z are apart.
         const STRIDES: [usize; 3] = [32, 9, 3];
         let coefficients = self.coefficients.as_flattened();
-        let [one, other] = [(axis + 1) % 3, (axis + 2) % 3];
+        let [one, other] = const { [(AXIS + 1) % 3, (AXIS + 2) % 3] };
         let [along_one, along_other] = [offset[one], offset[other]];
-        let first = 2 * STRIDES[axis];
+        let first = 2 * STRIDES[AXIS];
         [0, 1, 2].map(|part| {
             let row = |power: usize| {
                 let at = first + power * STRIDES[one] + part;
