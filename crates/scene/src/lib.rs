@@ -42,7 +42,7 @@ pub use motion::{FrameError, FrameFault};
 pub use report::{SceneError, SceneFault};
 pub use scene::{
     CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description, OrbitCamera,
-    OrbitCenter, Scene, Setting, SettingError, Unturnable,
+    OrbitCenter, STANDARD_INPUT, Scene, Setting, SettingError, Unturnable,
 };
 pub use table::{COMPRESSED_ENDINGS, written_time};
 pub use text::harmless;

@@ -3,10 +3,7 @@
 use std::ffi::OsStr;
 use std::path::Path;
 
-use marbles_scene::COMPRESSED_ENDINGS;
-
-/// The path of a scene that is read from the standard input.
-pub(crate) const STANDARD_INPUT: &str = "-";
+use marbles_scene::{COMPRESSED_ENDINGS, STANDARD_INPUT};
 
 /// The name of the file at `path` without its extension, and without that of a compression; `scene` for the standard input.
 pub(crate) fn scene_name(path: &Path) -> &OsStr {

@@ -25,7 +25,8 @@ use crate::values::{MOST_FRAMES, MaterialName};
 use crate::world::{self, Cloud, OpenCloud, Part, Progress, Series, Step};
 
 impl Scene {
-    /// Reads and checks the scene file at `path`, and the tables that it names.
+    /// Reads and checks the scene file at `path`, and the tables that it names; or the scene in the standard input if the path
+    /// is [`STANDARD_INPUT`], whose tables are in the current folder.
     ///
     /// Tables are read on the threads of the current rayon pool.
     ///
@@ -51,7 +52,7 @@ impl Scene {
     }
 
     /// Loads a scene file as [`Self::load_with`] does, with the values that `figure` replaces; or loads the figure of a
-    /// table of particles. The path `-` is that of a scene in the standard input, whose tables are in the current folder.
+    /// table of particles.
     ///
     /// # Errors
     /// As [`Self::load_with`].

@@ -26,6 +26,8 @@ use crate::report::SceneError;
 use crate::world::{ColumnSummary, OpenCloud, Series, StepKey};
 use own_camera::{AsWritten, OwnCamera};
 
+pub use read::STANDARD_INPUT;
+
 pub use description::{
     CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description,
 };

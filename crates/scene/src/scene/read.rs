@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// The path that stands for the standard input.
-pub(super) const STANDARD_INPUT: &str = "-";
+/// The path that stands for a scene from the standard input.
+pub const STANDARD_INPUT: &str = "-";
 
 /// The largest scene file that is read, in bytes: more than ten million spheres take, and a limit
 /// for files that never end.

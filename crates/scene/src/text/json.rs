@@ -63,7 +63,9 @@ pub(crate) fn to_ron(json: &str) -> Result<String, Fault> {
 }
 
 fn syntax_fault(json: &str, error: &serde_json::Error) -> Fault {
-    let before = json.split_inclusive('\n').take(error.line() - 1);
+    let before = json
+        .split_inclusive('\n')
+        .take(error.line().saturating_sub(1));
     let line: usize = before.map(str::len).sum();
     // Columns are bytes, from 1.
     let mut at = (line + error.column().saturating_sub(1)).min(json.len());

@@ -4,8 +4,9 @@ use std::ffi::OsString;
 use std::num::NonZeroU32;
 use std::path::{self, Path};
 
+use marbles_scene::STANDARD_INPUT;
+
 use crate::base::failure::Failure;
-use crate::base::scene_name::STANDARD_INPUT;
 use crate::base::threads;
 use crate::commands::args::JobArguments;
 use crate::commands::inputs::Inputs;

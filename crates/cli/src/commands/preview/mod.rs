@@ -16,7 +16,6 @@ use self::screen::Screen;
 use super::args::PreviewArguments;
 use super::scene;
 use crate::base::failure::Failure;
-use crate::base::scene_name::STANDARD_INPUT;
 use crate::base::size::Size;
 use crate::base::{status, threads};
 use crate::terminal::console::Console;
@@ -24,6 +23,7 @@ use crate::terminal::interrupt;
 use crate::terminal::keyboard::Keyboard;
 use crate::terminal::progress::Progress;
 use marbles_core::parallel;
+use marbles_scene::STANDARD_INPUT;
 
 /// The number of lines left free for the shell's prompt.
 const PROMPT_LINES: u32 = 2;

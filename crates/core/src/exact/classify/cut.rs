@@ -215,7 +215,7 @@ impl Contents {
         });
     }
 
-    /// The one sphere that some rays of the cell begin inside of, and others not, if the cell is not beside it: then the cell
+    /// The one sphere that some rays of the cell begin inside of, and others not, unless the cell is beside it: then the cell
     /// is known by its [`CutSide`]s. Its contour may lie in the cell, so near to the cap's that no parts tell them apart.
     pub(crate) fn divided_by(&self, cell: &Cell) -> Option<usize> {
         let [(sphere, ball)] = self.cut[..] else {

@@ -176,7 +176,7 @@ fn faults_are_shown_where_they_are_in_the_text() {
     }
 }
 
-/// Texts cut off and mixed up at random.
+/// Texts with bytes that are replaced at random.
 #[test]
 fn no_text_panics() {
     let whole = r#"{"keep": [["\u00e4", {"Is": [1, null]}]], "up": "Z", "radii": {"a\n": {"B": {"C": 2}}}}"#;
