@@ -4,11 +4,13 @@
 use std::path::Path;
 
 use glam::DVec3;
-use marbles_core::{Color, Evidence, Image, LightFalloff, PointLight, Sphere, World};
+use marbles_core::{Color, Evidence, Image, LightFalloff, PointLight, Sphere, Status, World};
 use marbles_scene::Scene;
 use marbles_tests::reference::Reference;
 
-use crate::studio::{exact_picture, looking_forward, matte, picture, pixels, world_of};
+use crate::studio::{
+    exact_picture, looking_forward, matte, picture, pixels, single_pixel, world_of,
+};
 
 /// Balls on and above a floor of this radius, whose top is at y = -1.5, up to the horizon and across it.
 fn scene(radius: f64, light: &str, lens: &str) -> Scene {
@@ -50,6 +52,20 @@ fn floors_of_any_radius_are_known_under_any_light() {
                 assert_eq!(over, 0, "{light} {radius:e} {tolerance:e}");
             }
         }
+    }
+}
+
+/// There rounding is all that is left of differences along the edge of a shadow, which turns back where it ends.
+#[test]
+fn a_shadow_that_ends_at_the_horizon_is_known() {
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/found/shadow_that_ends_at_a_horizon.ron");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let scene = Scene::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"));
+    let pixel = single_pixel(&scene.view(1).unwrap(), 96, 52);
+    for tolerance in [1e-4, 1e-5, 1e-6] {
+        let image = exact_picture(scene.world(), &pixel, tolerance, false);
+        assert_eq!(image.status(0, 0), Status::Met, "{tolerance:e}");
     }
 }
 

@@ -3,8 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use super::circle::Circle;
-use super::curve::{Piece, Shape};
+use super::curve::Shape;
 use super::near_shadow::NearShadow;
+use super::piece::Piece;
 use crate::edges::cell::Cell;
 
 /// The parts of a circle in front of the eye that lie in a cell, each no more than a quarter of it.
@@ -115,7 +116,7 @@ pub(super) fn of_shadow(
     let near = middle - toward * middle.dot(toward);
     let disc_sq = circle.right.length_squared();
     let mut roots = [DVec2::ZERO; 4];
-    let mut count = 0;
+    let (mut count, mut of_near) = (0, 0);
     // Both ask for |middle + r e - p|² < limit.
     let limits = [(near, around * around), (DVec3::ZERO, *radius_sq)];
     let first = pieces.len();
@@ -126,6 +127,7 @@ pub(super) fn of_shadow(
             2.0 * circle.up.dot(to_middle),
         );
         let c = to_middle.length_squared() + disc_sq - limit;
+        of_near = count;
         let [one, other] = zeros(a, b, c);
         if let (Some(one), Some(other)) = (one, other) {
             roots[count] = one;
@@ -135,6 +137,8 @@ pub(super) fn of_shadow(
             return;
         }
     }
+    let mut turning = [DVec2::NAN; 2];
+    turning[..count - of_near].copy_from_slice(&roots[of_near..count]);
     between(&mut roots[..count], pieces, |e| {
         let at = circle.at(e);
         limits
@@ -143,9 +147,7 @@ pub(super) fn of_shadow(
     });
     // Where it ends it turns back, if it ends on the terminator.
     for piece in &mut pieces[first..] {
-        piece.roots = piece
-            .ends
-            .map(|e| circle.at(e).length_squared() > radius_sq * (1.0 - 1e-9));
+        piece.roots = piece.ends.map(|e| turning.contains(&e));
     }
 }
 

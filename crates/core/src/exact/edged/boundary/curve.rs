@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 
 use super::circle::{Circle, Trace, along_circle, on_circle, placed};
 use super::near_shadow::NearShadow;
+use super::piece::{Piece, from_ends};
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::shadow::{Caster, Cone};
 use crate::numeric::lanes::f64x8;
@@ -79,15 +80,6 @@ impl Shape {
     }
 }
 
-/// A part of a curve: between two unit vectors (cos θ, sin θ), by less than half a turn; of a side,
-/// between two y, which are the second components.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
-    pub(super) ends: [DVec2; 2],
-    /// Whether the curve turns back at an end, where places go with the root of the angle.
-    pub(super) roots: [bool; 2],
-}
-
 /// The points of a piece with these parameters, from 0 to 1.
 #[inline(never)]
 pub(super) fn trace<S: Simd>(
@@ -137,8 +129,14 @@ pub(super) fn trace<S: Simd>(
                     let turn = turn * slope;
                     let aside = on_circle(simd, circle, e);
                     let step = along_circle(simd, circle, e).times(turn);
-                    let rest = (one * *radius_sq - aside.length_squared()).max(zero);
-                    let height = rest.sqrt();
+                    let rest = if piece.roots == [false; 2] {
+                        one * *radius_sq - aside.length_squared()
+                    } else {
+                        let by_cos = -2.0 * circle.right.dot(circle.middle);
+                        let by_sin = -2.0 * circle.up.dot(circle.middle);
+                        from_ends(piece, s, e, [0.0, by_cos, by_sin])
+                    };
+                    let height = rest.max(zero).sqrt();
                     let inverse = one * *side / height.max(one * 1e-150);
                     let toward = Vectors::splat(simd, *toward);
                     let point = aside
@@ -151,7 +149,7 @@ pub(super) fn trace<S: Simd>(
                 Shape::NearShadow(shadow) => {
                     let (s, slope) = warped(piece.roots, s);
                     let (e, turn) = turned(start, end, s);
-                    shadow.trace(simd, cell, (e, turn * slope))
+                    shadow.trace(simd, cell, (piece, s), (e, turn * slope))
                 }
                 Shape::Cone {
                     cone,
@@ -169,8 +167,16 @@ pub(super) fn trace<S: Simd>(
                     // t = K / (h + √q) where it enters, with h = w · a and q = h² − |w|² K.
                     let way_sq = way.length_squared();
                     let half = way.dot_one(*to_center);
-                    let rest = (half * half - way_sq * *outside).max(zero);
-                    let root = rest.sqrt();
+                    let rest = if piece.roots == [false; 2] || *outside <= 0.0 {
+                        half * half - way_sq * *outside
+                    } else {
+                        // h − |w| √K vanishes where it turns back; |w| is the same on all of the rim.
+                        let by_cos = rim.right.dot(*to_center);
+                        let by_sin = rim.up.dot(*to_center);
+                        let tangent = (way_sq * *outside).sqrt();
+                        from_ends(piece, s, e, [0.0, by_cos, by_sin]) * (half + tangent)
+                    };
+                    let root = rest.max(zero).sqrt();
                     let t = if *side > 0.0 {
                         one * *outside / (half + root)
                     } else {

@@ -3,9 +3,10 @@
 use fearless_simd::Simd;
 
 use super::circle::Trace;
-use super::curve::{Piece, trace};
+use super::curve::trace;
 use super::dips::{around, dips, may_dip};
 use super::functions::{Function, value};
+use super::piece::Piece;
 use super::setting::{Curve, Setting};
 use crate::numeric::lanes::f64x8;
 

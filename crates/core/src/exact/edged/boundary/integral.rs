@@ -6,8 +6,9 @@ use glam::DVec2;
 use super::chord::Reference;
 use super::circle::Circle;
 use super::clip;
-use super::curve::{Piece, Shape};
+use super::curve::Shape;
 use super::events::Stretch;
+use super::piece::Piece;
 use super::power_rules::PowerRules;
 use super::quadrature::total;
 

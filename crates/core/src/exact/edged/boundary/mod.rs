@@ -27,6 +27,7 @@ mod lit;
 mod lit_sphere;
 mod near_shadow;
 mod outlines;
+mod piece;
 mod plain;
 mod power_rules;
 mod primitive;

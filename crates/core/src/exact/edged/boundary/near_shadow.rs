@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::circle::{Circle, Trace, along_circle, on_circle, placed};
+use super::piece::{Piece, from_ends};
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::shadow::Caster;
 use crate::numeric::lanes::f64x8;
@@ -78,6 +79,7 @@ impl NearShadow {
         &self,
         simd: S,
         cell: &Cell,
+        (piece, s): (&Piece, f64x8<S>),
         (e, turn): ([f64x8<S>; 2], f64x8<S>),
     ) -> Trace<S> {
         let [one, by_cos, by_sin] = self.height;
@@ -86,7 +88,7 @@ impl NearShadow {
         let height = cos * by_cos + sin * by_sin + one;
         let change = (cos * by_sin - sin * by_cos) * turn;
         let (rise, radius, side) = (self.rise, self.radius, self.side);
-        let root = (height * (-2.0 / radius) + rise * rise).max(zero).sqrt();
+        let root = from_ends(piece, s, e, self.discriminant()).max(zero).sqrt();
         // (±√D − g) r, without the difference of two large numbers.
         let way = if rise * side >= 0.0 {
             height * (-2.0 * side) / (root + rise.abs()).max(zero + 1e-150)

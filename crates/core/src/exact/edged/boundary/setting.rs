@@ -3,7 +3,8 @@
 use fearless_simd::Simd;
 
 use super::chord::Reference;
-use super::curve::{Piece, Shape};
+use super::curve::Shape;
+use super::piece::Piece;
 use super::power_rules::PowerRules;
 use super::primitive::Noise;
 
