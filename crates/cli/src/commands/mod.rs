@@ -21,4 +21,5 @@ mod scale_bar;
 mod scene;
 mod several_scenes;
 pub(crate) mod spheres;
+mod standard_output;
 pub(crate) mod svg;

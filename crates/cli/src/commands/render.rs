@@ -9,7 +9,7 @@ use rayon::ThreadPool;
 use super::args::{PerLight, RenderArguments};
 use super::inputs::Inputs;
 use super::several_scenes::Others;
-use super::{dim_light, figures, oversights, scene};
+use super::{dim_light, figures, oversights, scene, standard_output};
 use crate::base::failure::Failure;
 use crate::base::scene_name::scene_name;
 use crate::base::shown::Shown;
@@ -68,6 +68,9 @@ fn run_scene(
     console: &Console,
 ) -> Result<u8, Failure> {
     let request = request(arguments, scene, threads, console)?;
+    if request.pattern.is_standard_output() {
+        console.keep_results_aside();
+    }
     others.add(&request)?;
     check_view(&request, arguments, threads, console)?;
     let of_scene = |path: &PathBuf| with_scene(path, scene_name(scene));
@@ -154,6 +157,7 @@ pub(super) fn request(
         let numbered = arguments.frames.is_some() || scene.frames().is_some();
         Pattern::named_after(path, numbered)
     });
+    standard_output::check(arguments, &pattern, &frames, encoding)?;
     check_names(&pattern, &frames, output)?;
     let centers = (!arguments.channels.is_empty()).then(|| {
         CenterChannels::new(

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::standard_output;
 use crate::base::failure::Failure;
 
 /// Makes sure that the folder for the file at `path` exists.
@@ -17,6 +18,9 @@ pub(crate) fn prepare(path: &Path) -> Result<(), Failure> {
 pub(super) fn destination(path: &Path) -> Result<PathBuf, Failure> {
     /// The number of links that Linux follows.
     const MOST_LINKS: usize = 40;
+    if standard_output::is(path) {
+        return Ok(path.to_owned());
+    }
     let mut destination = path.to_owned();
     for _ in 0..=MOST_LINKS {
         let Ok(target) = fs::read_link(&destination) else {

@@ -14,6 +14,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::Duration;
 use std::{mem, thread};
 
+use super::standard_output;
+
 /// The length of the longest file names, in bytes, on common file systems.
 const LONGEST_NAME: usize = 255;
 /// Bytes reserved for the suffix.
@@ -25,7 +27,7 @@ const MOST_OTHERS: u32 = 1000;
 /// The temporary files of this process. While a thread holds the lock, no such file appears or moves.
 static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// A file in the folder of its destination. It is removed if it is dropped before it is complete.
+/// A file in the folder of its destination, or, for the standard output, in that of the system. It is removed if it is dropped before it is complete.
 #[derive(Debug)]
 pub(crate) struct TemporaryFile {
     /// Locked, if the file system supports locks.
@@ -52,12 +54,16 @@ impl TemporaryFile {
     }
 
     fn numbered(destination: &Path, number: u32) -> io::Result<Option<Self>> {
-        let mut name = stem(destination);
+        let place = match standard_output::is(destination) {
+            true => standard_output::temporary_path(),
+            false => destination.to_owned(),
+        };
+        let mut name = stem(&place);
         if number > 0 {
             name.push(format!(".{number}"));
         }
         name.push(ENDING);
-        let path = destination.with_file_name(name);
+        let path = place.with_file_name(name);
         let mut open = lock();
         let Some(file) = create(&path)? else {
             return Ok(None);
@@ -80,8 +86,11 @@ impl TemporaryFile {
         &mut self.file
     }
 
-    /// Moves the complete file to its destination, and replaces the previous file.
-    pub(crate) fn persist(self) -> io::Result<()> {
+    /// Moves the complete file to its destination, and replaces the previous file, or copies it to the standard output.
+    pub(crate) fn persist(mut self) -> io::Result<()> {
+        if standard_output::is(&self.destination) {
+            return standard_output::copy(&mut self.file);
+        }
         // Without this a crash of the machine could leave the name without the bytes.
         self.file.sync_all()?;
         let mut open = lock();

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::base::scene_name::scene_name;
 use crate::base::shown::Shown;
+use crate::files::standard_output;
 use crate::formats::encoding::Format;
 
 /// The largest number of digits. More are a typing error, and no file system allows them.
@@ -36,9 +37,19 @@ impl Pattern {
             let path = path.shown();
             format!(
                 "expected a file name that ends in .png, .exr, .npy, .tif, .tiff, .apng, .gif or \
-                 .webp, found `{path}`"
+                 .webp, or `-` for the standard output (`exr:-` for another format than PNG), found `{path}`"
             )
         };
+        if let Some(ending) = standard_output::format_of(path) {
+            let format = Format::of(&format!(".{ending}")).ok_or_else(wrong_ending)?;
+            return Ok(Self {
+                folder: PathBuf::new(),
+                before: standard_output::path().into_os_string(),
+                digits: None,
+                after: OsString::new(),
+                format,
+            });
+        }
         // A trailing slash means a folder, which `file_name` would overlook.
         let bytes = path.as_os_str().as_encoded_bytes();
         let name = path.file_name();
@@ -120,6 +131,11 @@ impl Pattern {
     /// The format for the extension.
     pub(crate) fn format(&self) -> Format {
         self.format
+    }
+
+    /// Returns whether pictures go to the standard output.
+    pub(crate) fn is_standard_output(&self) -> bool {
+        standard_output::is(&self.path(0))
     }
 
     /// Returns whether different frames have different names.

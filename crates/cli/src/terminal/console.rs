@@ -1,4 +1,4 @@
-//! The console: results go to stdout, everything else to stderr.
+//! The console: results go to stdout, unless pictures do, and everything else to stderr.
 
 use std::env;
 use std::io::{self, ErrorKind, IsTerminal, Write};
@@ -22,6 +22,8 @@ pub(crate) struct Console {
     err: Stream,
     /// The reader of messages, if it is a program.
     reader: OnceLock<Reader>,
+    /// Set if stdout is for pictures.
+    keeps_results_aside: OnceLock<()>,
 }
 
 /// A reader of messages, with its own form.
@@ -53,6 +55,7 @@ impl Console {
             out: Stream::new(out, out_terminal, colors),
             err: Stream::new(err, err_terminal, colors),
             reader: OnceLock::new(),
+            keeps_results_aside: OnceLock::new(),
         }
     }
 
@@ -62,12 +65,18 @@ impl Console {
             out: Stream::new(out, false, false),
             err: Stream::new(err, false, false),
             reader: OnceLock::new(),
+            keeps_results_aside: OnceLock::new(),
         }
     }
 
     /// Sets the reader of all further messages.
     pub(crate) fn speak_to(&self, reader: Reader) {
         self.reader.get_or_init(|| reader);
+    }
+
+    /// From now on prints results on stderr, because stdout is for pictures.
+    pub(crate) fn keep_results_aside(&self) {
+        self.keeps_results_aside.get_or_init(|| ());
     }
 
     /// The reader of messages.
@@ -104,7 +113,13 @@ impl Console {
 
     /// Results that are not lines, unchanged.
     pub(crate) fn print(&self, text: &str) {
-        self.out.print(text);
+        let are_aside = self.keeps_results_aside.get().is_some();
+        match (are_aside, self.reader()) {
+            (false, _) => self.out.print(text),
+            // Events there contain the results.
+            (true, Reader::Json) => {}
+            (true, Reader::People | Reader::OpenJd) => self.err.print(text),
+        }
     }
 
     /// The failure to print results, unless nobody reads them any more.

@@ -40,6 +40,7 @@ mod series;
 mod sidecar;
 mod signals;
 mod standard_input;
+mod standard_output;
 #[cfg(target_os = "linux")]
 mod terminal;
 mod tiff;

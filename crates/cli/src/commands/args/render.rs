@@ -30,6 +30,7 @@ Examples:
   marbles render turn.ron -o t%03d.png --frames 1-9x2,20
   marbles render turn.ron -o turn.webp                a loop that browsers play; also turn.gif and turn.apng
   marbles render ball.ron -o ball.tif                 16-bit TIFF, in proportion to light; floats with --float
+  marbles render - -o exr:- < ball.ron > ball.exr     from program to program: scene and picture in pipes
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 samples per pixel
   marbles render ball.ron -o ball.exr --channels depth,normal,id
@@ -74,7 +75,7 @@ pub(crate) struct RenderArguments {
 
     /// Names of the files; ####, %04d or {frame:04} stands for the frame number, {scene} for the name of the scene.
     /// The extension .png, .exr, .npy or .tif chooses the format; .webp, .gif or .apng puts all frames into one file,
-    /// which plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
+    /// which plays in a loop. `-` writes a PNG to the standard output, `exr:-` another format [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 

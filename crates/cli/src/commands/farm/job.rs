@@ -53,6 +53,10 @@ impl Job {
             return Err(Failure::Usage(message.to_owned()));
         }
         let request = request(render, scene, &threads::start(None)?, console)?;
+        if request.pattern.is_standard_output() {
+            let message = "expected names of files, which tasks write, found the standard output";
+            return Err(Failure::Usage(message.to_owned()));
+        }
         if request.is_animation() {
             return Err(Failure::Usage(
                 "a task writes one file per frame, but this output contains all frames".to_owned(),
