@@ -23,7 +23,7 @@ const SCENE: &str = "(
 const RENDER: &str = "render scene.ron --frames 1 --samples 2 --quiet --threads 1";
 
 /// The options that lead to the different files, and the names of the files.
-const FILES: [(&str, &str); 8] = [
+const FILES: [(&str, &str); 9] = [
     ("a.png", ""),
     ("b.png", "--bits 16 --alpha --region 0,0,24,10"),
     ("c.exr", "--error-channel"),
@@ -32,6 +32,7 @@ const FILES: [(&str, &str); 8] = [
     ("f.exr", "--per-light=layers"),
     ("g.tif", "--alpha"),
     ("h.tif", "--float --region 0,10,24,10"),
+    ("i.npz", "--error-channel --channels id,depth"),
 ];
 
 /// Runs `marbles`; returns the exit code.

@@ -315,6 +315,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         Format::Animation(AnimationFormat::Webp) => "WebP",
         Format::Exr => "EXR",
         Format::Npy => "NPY",
+        Format::Npz => "NPZ",
         Format::Tiff => "TIFF",
     };
     for (is_given, option, formats) in [
@@ -327,11 +328,15 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
             &["PNG", "TIFF", "GIF", "WebP"],
         ),
         (arguments.float, "--float", &["EXR", "TIFF"]),
-        (arguments.error_channel, "--error-channel", &["EXR", "NPY"]),
+        (
+            arguments.error_channel,
+            "--error-channel",
+            &["EXR", "NPY", "NPZ"],
+        ),
         (
             !arguments.channels.is_empty(),
             "--channels",
-            &["EXR", "NPY"],
+            &["EXR", "NPY", "NPZ"],
         ),
         (
             arguments.per_light == Some(PerLight::Layers),
@@ -384,8 +389,9 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
             float: arguments.float || !arguments.channels.is_empty(),
             error: arguments.error_channel,
         }),
-        Format::Npy => Encoding::Npy(NpyOptions {
+        Format::Npy | Format::Npz => Encoding::Npy(NpyOptions {
             error: arguments.error_channel,
+            archive: format == Format::Npz,
         }),
         Format::Tiff => Encoding::Tiff(TiffOptions {
             float: arguments.float,

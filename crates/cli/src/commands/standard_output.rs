@@ -34,7 +34,7 @@ pub(super) fn check(
     }
     let drawings = [&arguments.legend, &arguments.scale_bar];
     let has_inside = drawings.into_iter().flatten().any(|path| is_inside(path));
-    let is_npy = matches!(encoding, Encoding::Npy(_));
+    let is_npy = matches!(encoding, Encoding::Npy(options) if !options.archive);
     for (is_given, option) in [
         (arguments.skip_existing, "--skip-existing"),
         (arguments.sidecar, "--sidecar"),
@@ -43,10 +43,13 @@ pub(super) fn check(
             "--per-light=files",
         ),
         (has_inside, "`inside`"),
-        (is_npy && arguments.error_channel, "--error-channel of NPY"),
+        (
+            is_npy && arguments.error_channel,
+            "--error-channel of NPY (not of NPZ)",
+        ),
         (
             is_npy && !arguments.channels.is_empty(),
-            "--channels of NPY",
+            "--channels of NPY (not of NPZ)",
         ),
     ] {
         if is_given {

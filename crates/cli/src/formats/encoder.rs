@@ -113,7 +113,7 @@ impl Encoder {
         let row_bytes = match &self.layout {
             Layout::Png { shape, .. } => shape.row_bytes(),
             Layout::Exr(blocks) => blocks.row_bytes(),
-            Layout::Npy(files) => files.row_bytes(),
+            Layout::Npy(files) => files.arrays.row_bytes(),
             Layout::Tiff(strips) => strips.shape.row_bytes(),
         };
         rows as usize * row_bytes
@@ -134,7 +134,7 @@ impl Encoder {
             Layout::Png { shape, gain, .. } => shape.encode(samples, col, image, rows, *gain),
             Layout::Exr(blocks) => blocks.encode(layer, samples, col, image, rows),
             Layout::Npy(files) => {
-                files.encode(samples, col, image, rows);
+                files.arrays.encode(samples, col, image, rows);
                 0
             }
             Layout::Tiff(strips) => strips.encode(samples, col, image, rows),
@@ -157,7 +157,7 @@ impl Encoder {
             // They have no such channels.
             Layout::Png { .. } | Layout::Tiff(_) => {}
             Layout::Exr(blocks) => blocks.encode_geometry(samples, col, geometry),
-            Layout::Npy(files) => files.encode_geometry(samples, col, geometry),
+            Layout::Npy(files) => files.arrays.encode_geometry(samples, col, geometry),
         }
     }
 

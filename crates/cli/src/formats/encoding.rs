@@ -10,6 +10,7 @@ pub(crate) enum Format {
     Animation(AnimationFormat),
     Exr,
     Npy,
+    Npz,
     Tiff,
 }
 
@@ -25,13 +26,14 @@ pub(crate) enum AnimationFormat {
 impl Format {
     /// The format for an extension.
     pub(crate) fn of(name: &str) -> Option<Self> {
-        const ENDINGS: [(&str, Format); 8] = [
+        const ENDINGS: [(&str, Format); 9] = [
             ("png", Format::Png),
             ("apng", Format::Animation(AnimationFormat::Apng)),
             ("gif", Format::Animation(AnimationFormat::Gif)),
             ("webp", Format::Animation(AnimationFormat::Webp)),
             ("exr", Format::Exr),
             ("npy", Format::Npy),
+            ("npz", Format::Npz),
             ("tif", Format::Tiff),
             ("tiff", Format::Tiff),
         ];
@@ -91,11 +93,13 @@ pub(crate) struct ExrOptions {
     pub(crate) error: bool,
 }
 
-/// The settings for writing NPY files.
+/// The settings for writing NPY files, or an NPZ file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct NpyOptions {
-    /// A second file with the error of each pixel.
+    /// A second array with the error of each pixel.
     pub(crate) error: bool,
+    /// All arrays in one NPZ file.
+    pub(crate) archive: bool,
 }
 
 /// The settings for writing a TIFF file.

@@ -19,15 +19,17 @@ enum Readable {
     Png,
     Exr,
     Npy,
+    Npz,
     Tiff,
     Other(Other),
 }
 
 /// The first bytes of files. A WebP is not among them, because it has a number between its constant bytes.
-const STARTS: [(&[u8], Readable); 19] = [
+const STARTS: [(&[u8], Readable); 20] = [
     (b"\x89PNG\r\n\x1a\n", Readable::Png),
     (EXR_MAGIC, Readable::Exr),
     (NPY_MAGIC, Readable::Npy),
+    (b"PK\x03\x04", Readable::Npz),
     (b"II*\0", Readable::Tiff),
     (b"MM\0*", Readable::Tiff),
     (b"II+\0", Readable::Tiff),
@@ -90,7 +92,7 @@ pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
 /// Begins to read the picture in a file with these first bytes and this name, or returns an error.
 fn begin(source: &Source, start: &[u8], name: &Path) -> Result<Picture, String> {
     let Some(format) = format_of(start, name) else {
-        const EXPECTED: &str = "expected a picture (PNG, EXR, NPY, TIFF, JPEG, WebP, GIF, HDR, PNM, TGA, BMP or QOI), found";
+        const EXPECTED: &str = "expected a picture (PNG, EXR, NPY, NPZ, TIFF, JPEG, WebP, GIF, HDR, PNM, TGA, BMP or QOI), found";
         if start.is_empty() {
             return Err(format!("{EXPECTED} an empty file"));
         }
@@ -101,6 +103,7 @@ fn begin(source: &Source, start: &[u8], name: &Path) -> Result<Picture, String> 
         Readable::Png => png::read::begin(source),
         Readable::Exr => exr::read::begin(source),
         Readable::Npy => npy::read::begin(source),
+        Readable::Npz => npy::archive::begin(source),
         Readable::Tiff => tiff::read::begin(source),
         Readable::Other(other) => other.begin(source),
     };
@@ -113,6 +116,7 @@ impl Readable {
             Self::Png => png::read::NAME,
             Self::Exr => exr::read::NAME,
             Self::Npy => npy::read::NAME,
+            Self::Npz => npy::archive::NAME,
             Self::Tiff => tiff::read::NAME,
             Self::Other(other) => other.name(),
         }
@@ -164,6 +168,7 @@ fn contents_of(source: &Source) -> Result<(Hash, Region), String> {
         Some(Readable::Exr) => exr::stored::contents(file),
         Some(Readable::Npy) => npy::stored::contents(&mut file)
             .ok_or_else(|| "it contains no digest, or ends early".to_owned()),
+        Some(Readable::Npz) => npy::archive::contents(source),
         Some(Readable::Tiff) => tiff::stored::contents(file),
         _ => png::stored::contents(&mut file),
     }

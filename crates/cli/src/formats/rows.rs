@@ -142,7 +142,7 @@ impl RowReader {
             Some(Format::Tiff) => tiff::rows::Rows::begin(file()?)
                 .map(Box::new)
                 .map(Self::Tiff),
-            Some(Format::Animation(_)) | None => {
+            Some(Format::Animation(_) | Format::Npz) | None => {
                 return Err("expected a file name that ends in .png, .exr, .npy or .tif".to_owned());
             }
         };

@@ -254,8 +254,9 @@ impl Feed {
                 self.integer(float);
                 self.integer(error);
             }
-            Encoding::Npy(NpyOptions { error }) => {
-                self.integer(2);
+            Encoding::Npy(NpyOptions { error, archive }) => {
+                // Four is for archives, so that the digests of files are what they were.
+                self.integer(if archive { 4 } else { 2 });
                 self.integer(error);
             }
             Encoding::Tiff(TiffOptions { float, rgb, gain }) => {

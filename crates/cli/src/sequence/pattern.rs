@@ -36,7 +36,7 @@ impl Pattern {
             }
             let path = path.shown();
             format!(
-                "expected a file name that ends in .png, .exr, .npy, .tif, .tiff, .apng, .gif or \
+                "expected a file name that ends in .png, .exr, .npy, .npz, .tif, .tiff, .apng, .gif or \
                  .webp, or `-` for the standard output (`exr:-` for another format than PNG), found `{path}`"
             )
         };

@@ -335,7 +335,7 @@ fn a_png_has_no_such_channels() {
     let folder = balls();
     let output = folder.run("render balls.ron -o a.png --channels depth,id");
     assert_eq!(code(&output), 2);
-    let expected = "marbles: --channels is for EXR and NPY files, but the output is PNG\n";
+    let expected = "marbles: --channels is for EXR, NPY and NPZ files, but the output is PNG\n";
     assert!(
         text(&output.stderr).contains(expected),
         "{}",

@@ -161,7 +161,7 @@ fn the_error_channel_is_told_and_not_compared() {
     assert_eq!(refused.status.code(), Some(2));
     assert_eq!(
         text(&refused.stderr),
-        "marbles: --error-channel is for EXR and NPY files, but the output is PNG\n"
+        "marbles: --error-channel is for EXR, NPY and NPZ files, but the output is PNG\n"
     );
 }
 

@@ -6,6 +6,7 @@
 )]
 
 mod animation;
+mod archives;
 mod atoms;
 mod camera_by_hand;
 mod channels;

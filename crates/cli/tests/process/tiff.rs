@@ -133,7 +133,7 @@ fn options_of_other_formats_are_refused() {
         ),
         (
             "--error-channel",
-            "--error-channel is for EXR and NPY files, but the output is TIFF",
+            "--error-channel is for EXR, NPY and NPZ files, but the output is TIFF",
         ),
         (
             "--float --exposure 1",

@@ -12,7 +12,7 @@ Examples:
   marbles compare a.exr b.exr --tolerance 1e-3        exit with 1 if a pixel differs by more
   marbles compare a.png b.png --diff diff.png         write a picture of the differences
 
-A and B are PNG, EXR, NPY, TIFF, JPEG, WebP, GIF, Radiance HDR, PNM or PAM, TGA, BMP or QOI files. marbles
+A and B are PNG, EXR, NPY, NPZ, TIFF, JPEG, WebP, GIF, Radiance HDR, PNM or PAM, TGA, BMP or QOI files. marbles
 recognizes the format by the content; only a TGA needs its extension. If a file is an animation, the first
 frame is read.
 

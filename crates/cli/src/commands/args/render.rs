@@ -27,6 +27,7 @@ Examples:
   marbles render a.ron b.ron -o out/{scene}.png       several scenes
   marbles render turn.ron --set camera.azimuth=30     another value in the scene
   marbles render ball.ron -o a.npy --error-channel    doubles for NumPy, their errors in a_error.npy
+  marbles render ball.ron -o a.npz --channels depth   the same and more in one file, as named arrays
   marbles render turn.ron -o t%03d.png --frames 1-9x2,20
   marbles render turn.ron -o turn.webp                a loop that browsers play; also turn.gif and turn.apng
   marbles render ball.ron -o ball.tif                 16-bit TIFF, in proportion to light; floats with --float
@@ -74,7 +75,7 @@ pub(crate) struct RenderArguments {
     pub(crate) figure: FigureOptions,
 
     /// Names of the files; ####, %04d or {frame:04} stands for the frame number, {scene} for the name of the scene.
-    /// The extension .png, .exr, .npy or .tif chooses the format; .webp, .gif or .apng puts all frames into one file,
+    /// The extension .png, .exr, .npy, .npz or .tif chooses the format; .webp, .gif or .apng puts all frames into one file,
     /// which plays in a loop. `-` writes a PNG to the standard output, `exr:-` another format [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
@@ -163,14 +164,14 @@ pub(crate) struct RenderArguments {
     pub(crate) float: bool,
 
     /// Also store the error of each pixel: in a channel `error` of an EXR, in single precision; for
-    /// NAME.npy in a file NAME_error.npy, in double precision
+    /// NAME.npy in a file NAME_error.npy, and in an array `error` of an NPZ, in double precision
     #[arg(long)]
     pub(crate) error_channel: bool,
 
     /// Also store properties of the first hit of the ray through the center of each pixel: depth, normal,
     /// position, id, albedo, mask; or averages over the visible spheres of each pixel: mean_normal, coverage_id.
-    /// Separate several by commas. They become channels of an EXR; for NAME.npy files NAME_channels.npy and
-    /// NAME_id.npy
+    /// Separate several by commas. They become channels of an EXR, or arrays of an NPZ with these names; for
+    /// NAME.npy files NAME_channels.npy and NAME_id.npy
     #[arg(
         long,
         value_name = "LIST",

@@ -19,7 +19,8 @@ use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, Failure> {
     let path = &arguments.output;
-    let format = Format::of_file(path).ok_or_else(|| {
+    let format = Format::of_file(path).filter(|format| *format != Format::Npz);
+    let format = format.ok_or_else(|| {
         Failure::unusable(
             path,
             "expected a file name that ends in .png, .exr, .npy or .tif",

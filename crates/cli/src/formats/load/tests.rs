@@ -14,7 +14,7 @@ use crate::tests::temporary;
 #[test]
 fn refuses_what_is_no_picture() {
     let refusal = |bytes: &[u8]| decode(bytes).err().unwrap();
-    const EXPECTED: &str = "expected a picture (PNG, EXR, NPY, TIFF, JPEG, WebP, GIF, HDR, PNM, TGA, BMP \
+    const EXPECTED: &str = "expected a picture (PNG, EXR, NPY, NPZ, TIFF, JPEG, WebP, GIF, HDR, PNM, TGA, BMP \
                             or QOI), found";
     assert_eq!(refusal(b""), format!("{EXPECTED} an empty file"));
     assert_eq!(

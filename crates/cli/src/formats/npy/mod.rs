@@ -1,6 +1,8 @@
-//! NPY, the arrays of NumPy: linear light and errors in double precision.
+//! NPY and NPZ, the arrays of NumPy: linear light and errors in double precision.
 
+pub(crate) mod archive;
 pub(crate) mod array;
+mod arrays;
 pub(crate) mod files;
 mod header;
 pub(crate) mod npz;

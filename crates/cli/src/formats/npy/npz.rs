@@ -4,7 +4,8 @@
 //! *APPNOTE.TXT*, PKWARE: each member follows its own header; at the end come all headers once more, and the offset of
 //! this list. All sizes have eight bytes (ZIP64), as in NumPy's files.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, Seek, SeekFrom, Write};
 
 use super::array::{Array, Number};
 use super::header;
@@ -32,12 +33,87 @@ const END: u32 = 0x0605_4b50;
 const NUMBERS: usize = 1 << 13;
 
 /// A file of the archive.
-struct Entry {
-    name: String,
-    checksum: u32,
-    bytes: u64,
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub(super) name: String,
+    pub(super) checksum: u32,
+    pub(super) bytes: u64,
     /// The offset of its header.
-    place: u64,
+    pub(super) place: u64,
+}
+
+/// An archive of arrays that grow together, piece by piece.
+#[derive(Debug, Default)]
+pub(super) struct Archive {
+    members: Vec<Member>,
+    /// The offset behind the last member.
+    end: u64,
+}
+
+/// A member that is being written.
+#[derive(Debug)]
+struct Member {
+    entry: Entry,
+    checksum: crc32fast::Hasher,
+    /// The offset of its next bytes.
+    next: u64,
+}
+
+impl Archive {
+    /// Adds an array with this name, header and number of further bytes, all of which must come before the end.
+    pub(super) fn add(
+        &mut self,
+        file: &mut File,
+        name: &str,
+        header: &[u8],
+        bytes: u64,
+    ) -> io::Result<()> {
+        let entry = Entry {
+            name: format!("{name}.npy"),
+            checksum: 0,
+            bytes: header.len() as u64 + bytes,
+            place: self.end,
+        };
+        let next = self.end + entry.local().len() as u64;
+        self.end = next + entry.bytes;
+        self.members.push(Member {
+            entry,
+            checksum: crc32fast::Hasher::new(),
+            next,
+        });
+        self.extend(file, self.members.len() - 1, header)
+    }
+
+    /// Adds bytes to the array with this index.
+    pub(super) fn extend(&mut self, file: &mut File, index: usize, bytes: &[u8]) -> io::Result<()> {
+        let member = &mut self.members[index];
+        file.seek(SeekFrom::Start(member.next))?;
+        file.write_all(bytes)?;
+        member.checksum.update(bytes);
+        member.next += bytes.len() as u64;
+        Ok(())
+    }
+
+    /// Writes all headers, whose checksums are known now.
+    pub(super) fn finish(self, file: &mut File) -> io::Result<()> {
+        let mut entries = Vec::new();
+        for mut member in self.members {
+            member.entry.checksum = member.checksum.finalize();
+            file.seek(SeekFrom::Start(member.entry.place))?;
+            file.write_all(&member.entry.local())?;
+            entries.push(member.entry);
+        }
+        file.seek(SeekFrom::Start(self.end))?;
+        file.write_all(&list(&entries, self.end))
+    }
+}
+
+/// The list of the members, which follows the last one, at this offset.
+pub(super) fn list(entries: &[Entry], place: u64) -> Vec<u8> {
+    let mut list: Vec<u8> = entries.iter().flat_map(Entry::central).collect();
+    let length = list.len() as u64;
+    list.extend(end(entries.len() as u64, place, length));
+    list
 }
 
 /// Writes arrays with one number per pixel, row by row, under their names.
@@ -70,9 +146,7 @@ pub(crate) fn write(to: &mut dyn Write, size: Size, arrays: &[(&str, &[f64])]) -
         place += local.len() as u64 + entry.bytes;
         entries.push(entry);
     }
-    let central: Vec<u8> = entries.iter().flat_map(Entry::central).collect();
-    to.write_all(&central)?;
-    to.write_all(&end(entries.len() as u64, place, central.len() as u64))
+    to.write_all(&list(&entries, place))
 }
 
 /// The bytes of the numbers, in pieces.
@@ -89,7 +163,7 @@ fn for_each_part(numbers: &[f64], mut take: impl FnMut(&[u8]) -> io::Result<()>)
 
 impl Entry {
     /// The header before the file.
-    fn local(&self) -> Vec<u8> {
+    pub(super) fn local(&self) -> Vec<u8> {
         let mut header = LOCAL.to_le_bytes().to_vec();
         self.describe(&mut header, 20);
         header.extend(self.name.as_bytes());

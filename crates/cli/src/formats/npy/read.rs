@@ -21,7 +21,11 @@ struct Numbers {
 
 /// The picture in a file.
 pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
-    let mut file = source.open().map_err(|error| reason(&error))?;
+    begin_in(source.open().map_err(|error| reason(&error))?)
+}
+
+/// The picture in the array that a reader contains.
+pub(super) fn begin_in(mut file: Box<dyn Input>) -> Result<Picture, String> {
     let header = header::read(&mut file)?;
     let array = header.array;
     let names = match array.channels {

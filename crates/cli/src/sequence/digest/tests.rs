@@ -185,7 +185,10 @@ fn whatever_changes_a_picture_changes_its_digest() {
         add("PNG", digest(SCENE, &SETTINGS, encoding, 2));
     }
     for error in [false, true] {
-        let encoding = Encoding::Npy(NpyOptions { error });
+        let encoding = Encoding::Npy(NpyOptions {
+            error,
+            archive: false,
+        });
         add("NPY", digest(SCENE, &SETTINGS, encoding, 2));
     }
     for (float, error) in [(false, false), (false, true), (true, false), (true, true)] {

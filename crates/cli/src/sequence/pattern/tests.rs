@@ -54,11 +54,15 @@ fn endings_choose_the_format() {
     assert_eq!(format("a.Gif"), Format::Animation(AnimationFormat::Gif));
     assert_eq!(format("a.webp"), Format::Animation(AnimationFormat::Webp));
     assert_eq!(format("a.NPY"), Format::Npy);
+    assert_eq!(format("a.npz"), Format::Npz);
+    assert_eq!(format("npz:-"), Format::Npz);
+    assert_eq!(format("-"), Format::Png);
     assert_eq!(format("a.tif"), Format::Tiff);
     assert_eq!(format("a.tiff"), Format::Tiff);
     for wrong in ["a.jpg", "a", "png", "out/", "out.png/", "a.png.", ".."] {
         assert!(
-            refusal(wrong).contains("ends in .png, .exr, .npy, .tif, .tiff, .apng, .gif or .webp"),
+            refusal(wrong)
+                .contains("ends in .png, .exr, .npy, .npz, .tif, .tiff, .apng, .gif or .webp"),
             "{wrong}"
         );
     }

@@ -1,26 +1,41 @@
 use std::fs::{self, File};
 use std::io::Read;
 
-use marbles_core::Window;
+use marbles_core::{Image, Window};
 
 use super::*;
+use crate::base::region::Region;
 use crate::base::size::Size;
 use crate::formats::encoder::{Encoder, Piece};
 use crate::formats::encoding::Encoding;
 use crate::formats::load;
+use crate::formats::npy::array::Array;
 use crate::formats::npy::rows::Rows;
 use crate::formats::tests::{DIGEST, Scene, facts, render, size};
 use crate::tests::temporary;
 
-/// Writes a picture as columns of 8 and the rest, and returns the paths of its files.
+/// Writes a picture, and returns the paths of its files.
 fn write(image: &Image, region: Region, error: bool, name: &str) -> Vec<(PathBuf, Hash)> {
+    let options = NpyOptions {
+        error,
+        archive: false,
+    };
+    write_as(image, region, options, name)
+}
+
+fn write_as(
+    image: &Image,
+    region: Region,
+    options: NpyOptions,
+    name: &str,
+) -> Vec<(PathBuf, Hash)> {
     let form = Form {
         region,
         channels: image.channels(),
         alpha: image.has_alpha(),
         centers: None,
     };
-    let encoder = Encoder::new(Encoding::Npy(NpyOptions { error }), form, &[]);
+    let encoder = Encoder::new(Encoding::Npy(options), form, &[]);
     let path = temporary(name);
     let mut pieces = (0..encoder.pieces()).map(|index| {
         let first = index * encoder.rows();
@@ -120,7 +135,14 @@ fn nothing_is_left_of_a_picture_that_is_not_complete() {
         alpha: false,
         centers: None,
     };
-    let encoder = Encoder::new(Encoding::Npy(NpyOptions { error: true }), form, &[]);
+    let encoder = Encoder::new(
+        Encoding::Npy(NpyOptions {
+            error: true,
+            archive: false,
+        }),
+        form,
+        &[],
+    );
     let path = temporary("cut.npy");
     let file = save::begin(&path).unwrap();
     let mut pieces = [Piece::Samples(vec![0; encoder.sample_bytes(0)])].into_iter();
@@ -147,4 +169,69 @@ fn files_beside_the_light_have_its_name_and_more() {
         assert_eq!(beside(Path::new(name), ERROR), Path::new(expected));
         assert_eq!(beside(Path::new(name), ""), Path::new(name));
     }
+}
+
+/// Writes a picture and its errors as an archive.
+fn write_archive(image: &Image, region: Region, name: &str) -> PathBuf {
+    let options = NpyOptions {
+        error: true,
+        archive: true,
+    };
+    let files = write_as(image, region, options, name);
+    assert!(matches!(&files[..], [(_, digest)] if *digest == DIGEST));
+    files[0].0.clone()
+}
+
+#[test]
+fn an_archive_has_the_light_to_the_bit() {
+    let image = render(Scene::Color, true);
+    let path = write_archive(&image, Region::all(size(&image)), "light.npz");
+    let mut picture = load::picture(&path).unwrap();
+    assert_eq!((picture.size, picture.format), (size(&image), "NPZ"));
+    for row in 0..image.height() {
+        picture.row.advance().unwrap();
+        for col in 0..image.width() {
+            assert_eq!(picture.row.rgba(col), image.rgba(col, row));
+        }
+    }
+    fs::remove_file(path).unwrap();
+}
+
+#[test]
+fn every_damage_of_an_archive_is_found() {
+    /// Bytes between two that are changed, within arrays.
+    const STEP: usize = 997;
+    let image = render(Scene::Color, false);
+    let window = Window {
+        col: 5,
+        row: 7,
+        width: image.width(),
+        height: image.height(),
+    };
+    let whole = Size {
+        width: 100,
+        height: 200,
+    };
+    let region = Region::new(window, whole).unwrap();
+    let path = write_archive(&image, region, "damaged.npz");
+    assert_eq!(load::contents(&path), Ok((DIGEST, region)));
+    let bytes = fs::read(&path).unwrap();
+    // The first headers, with the stamp, and the list at the end; between them some bytes of every array.
+    let (start, end) = (700, bytes.len() - 300);
+    let places = (0..start).chain((start..end).step_by(STEP));
+    for place in places.chain(end..bytes.len()) {
+        let mut wrong = bytes.clone();
+        wrong[place] ^= 1;
+        fs::write(&path, &wrong).unwrap();
+        assert!(load::contents(&path).is_err(), "byte {place}");
+    }
+    for wrong in [
+        &bytes[..bytes.len() - 1],
+        &bytes[..40],
+        &[&bytes[..], b"x"].concat(),
+    ] {
+        fs::write(&path, wrong).unwrap();
+        assert!(load::contents(&path).is_err(), "{}", wrong.len());
+    }
+    fs::remove_file(path).unwrap();
 }
