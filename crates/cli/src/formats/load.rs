@@ -57,7 +57,8 @@ const MOST_PIPED_BYTES: u64 = 1 << 27;
 /// The number of bytes from which the format is recognized.
 const START_BYTES: usize = 12;
 
-/// Returns whether the file at `path` begins like a picture, or has the name of a TGA.
+/// Returns whether the file at `path` begins like a picture, or has the name of a TGA. Arrays that are tables of particles
+/// are no pictures.
 pub(crate) fn is_picture(path: &Path) -> bool {
     let start = || {
         // The start of a pipe could be read only once.
@@ -67,7 +68,11 @@ pub(crate) fn is_picture(path: &Path) -> bool {
         BufReader::new(file).read_to_end(&mut start).ok()?;
         format_of(&start, path)
     };
-    start().is_some()
+    match start() {
+        Some(Readable::Npy) => !npy::read::is_table(path),
+        Some(Readable::Npz) => npy::archive::has_light(path),
+        other => other.is_some(),
+    }
 }
 
 /// Begins to read the picture at `path`.

@@ -109,7 +109,14 @@ fn pictures_are_shown_as_scenes_are() {
     assert_eq!(code, 0);
     // One pixel of the picture for each pixel of the text, or two by two, whose mean is the same.
     let lines = of_scene.lines().count() as u32;
-    for (ending, factor, most) in [("png", 1, 0), ("webp", 1, 0), ("tif", 2, 3), ("npy", 2, 3)] {
+    let kinds = [
+        ("png", 1, 0),
+        ("webp", 1, 0),
+        ("tif", 2, 3),
+        ("npy", 2, 3),
+        ("npz", 2, 3),
+    ];
+    for (ending, factor, most) in kinds {
         let picture = temporary(&format!("preview_of_picture.{ending}"));
         let picture = picture.to_str().unwrap();
         let size = format!("{0}x{0}", 2 * factor * lines);
@@ -142,7 +149,36 @@ fn pictures_are_shown_as_scenes_are() {
                 "{err}"
             );
         }
+        fs::remove_file(picture).unwrap();
     }
+    fs::remove_file(scene).unwrap();
+}
+
+/// An NPY of particles would be a picture of three columns.
+#[test]
+fn a_table_in_an_array_is_no_picture() {
+    let dictionary = "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 3), }\n";
+    let length = (dictionary.len() as u16).to_le_bytes();
+    let numbers = (0..12).flat_map(|number| f64::from(number * number % 7).to_le_bytes());
+    let numbers: Vec<u8> = numbers.collect();
+    let bytes = [
+        b"\x93NUMPY\x01\x00",
+        &length[..],
+        dictionary.as_bytes(),
+        &numbers,
+    ];
+    let table = temporary("preview_of_table.npy");
+    fs::write(&table, bytes.concat()).unwrap();
+    // Pictures have nothing to set.
+    let (code, out, err) = run_here(&[
+        "preview",
+        table.to_str().unwrap(),
+        "--once",
+        "--set=ambient=0.5",
+    ]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.lines().count() > 1, "{out}");
+    fs::remove_file(table).unwrap();
 }
 
 /// The numbers in a text. Only the numbers of colors may differ.

@@ -25,6 +25,12 @@ struct Member {
     start: Option<u64>,
 }
 
+impl Member {
+    fn is_light(&self) -> bool {
+        self.entry.name.strip_suffix(".npy") == Some(LIGHT)
+    }
+}
+
 /// The light in an archive of marbles, or the only array of another one.
 pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
     let path = path_of(source)?;
@@ -36,6 +42,11 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
         description: picture.description.replacen(read::NAME, NAME, 1),
         ..picture
     })
+}
+
+/// Returns whether the archive at `path` has an array with the name of the light.
+pub(crate) fn has_light(path: &Path) -> bool {
+    members(path).is_ok_and(|members| members.iter().any(Member::is_light))
 }
 
 /// The digest and the region of the picture in an archive. Reads all of it: nothing may differ from what marbles writes.
@@ -146,9 +157,7 @@ fn members(path: &Path) -> Result<Vec<Member>, String> {
 
 /// The member with the light, or the only one.
 fn light(mut members: Vec<Member>) -> Result<Member, String> {
-    let name = format!("{LIGHT}.npy");
-    let is_light = |member: &Member| member.entry.name == name;
-    let index = members.iter().position(is_light);
+    let index = members.iter().position(Member::is_light);
     match index.or_else(|| (members.len() == 1).then_some(0)) {
         Some(index) => Ok(members.swap_remove(index)),
         None => {

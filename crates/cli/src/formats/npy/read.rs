@@ -1,9 +1,11 @@
 //! NPY files as pictures: the numbers are linear, premultiplied light.
 
-use std::io::{Read, Seek, SeekFrom};
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
 
 use super::array::{Array, Number};
-use super::header;
+use super::header::{self, Header};
 use crate::base::failure::reason;
 use crate::formats::picture::{Picture, Samples, size_of};
 use crate::formats::source::{Input, Source};
@@ -17,6 +19,18 @@ struct Numbers {
     file: Box<dyn Input>,
     /// The bytes of the row that was read last.
     row: Vec<u8>,
+}
+
+/// Returns whether the file at `path` is a table of particles rather than a picture: an array of two axes with a few
+/// columns, which would be a picture a few pixels wide.
+pub(crate) fn is_table(path: &Path) -> bool {
+    /// The columns of a table without names, at most.
+    const MOST_COLUMNS: u32 = 7;
+    let file = File::open(path).map_err(|error| reason(&error));
+    let header = file.and_then(|file| header::read(&mut BufReader::new(file)));
+    header.is_ok_and(|Header { array, .. }| {
+        array.channels.is_none() && array.size.width <= MOST_COLUMNS
+    })
 }
 
 /// The picture in a file.

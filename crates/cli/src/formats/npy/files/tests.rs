@@ -10,6 +10,7 @@ use crate::formats::encoder::{Encoder, Piece};
 use crate::formats::encoding::Encoding;
 use crate::formats::load;
 use crate::formats::npy::array::Array;
+use crate::formats::npy::npz;
 use crate::formats::npy::rows::Rows;
 use crate::formats::tests::{DIGEST, Scene, facts, render, size};
 use crate::tests::temporary;
@@ -186,6 +187,7 @@ fn write_archive(image: &Image, region: Region, name: &str) -> PathBuf {
 fn an_archive_has_the_light_to_the_bit() {
     let image = render(Scene::Color, true);
     let path = write_archive(&image, Region::all(size(&image)), "light.npz");
+    assert!(load::is_picture(&path));
     let mut picture = load::picture(&path).unwrap();
     assert_eq!((picture.size, picture.format), (size(&image), "NPZ"));
     for row in 0..image.height() {
@@ -194,6 +196,15 @@ fn an_archive_has_the_light_to_the_bit() {
             assert_eq!(picture.row.rgba(col), image.rgba(col, row));
         }
     }
+    // Columns of particles have other names.
+    let numbers = [0.5; 6];
+    let size = Size {
+        width: 3,
+        height: 2,
+    };
+    let mut file = File::create(&path).unwrap();
+    npz::write(&mut file, size, &[("position", &numbers)]).unwrap();
+    assert!(!load::is_picture(&path));
     fs::remove_file(path).unwrap();
 }
 
