@@ -36,6 +36,22 @@ def truth(folder: Path, name: str) -> np.ndarray:
     return light
 
 
+def check_npz(folder: Path, name: str, light: np.ndarray) -> int:
+    """All arrays of a picture in one file, under their names."""
+    with np.load(folder / f"{name}.npz") as file:
+        arrays = dict(file)
+    assert list(arrays) == ["light", "error", "depth", "normal", "id"], list(arrays)
+    assert np.array_equal(arrays["light"], light)
+    assert np.array_equal(arrays["error"], np.load(folder / f"{name}_error.npy"))
+    assert arrays["depth"].shape == (30, 40) and arrays["normal"].shape == (30, 40, 3)
+    assert arrays["id"].dtype == np.dtype("<u4") and arrays["id"].shape == (30, 40)
+    seen = arrays["id"] != 0xFFFF_FFFF
+    assert np.array_equal(seen, np.isfinite(arrays["depth"])) and seen.any() and not seen.all()
+    lengths = np.linalg.norm(arrays["normal"][seen], axis=1)
+    assert np.abs(lengths - 1).max() < 1e-15, lengths
+    return 1
+
+
 def srgb(light: np.ndarray) -> np.ndarray:
     """The sRGB value of linear light."""
     root = 1.055 * np.maximum(light, 0.0031308) ** (1 / 2.4) - 0.055
@@ -183,7 +199,8 @@ def main() -> None:
             is_grey = np.array_equal(light[..., 0], light[..., 2])
             assert is_grey == (scene == "grey")
             assert light.max() > 1.2, "some pixels should be clipped"
-            count += 1 + check_png(folder, name, light) + check_exr(folder, name, light)
+            count += 1 + check_npz(folder, name, light)
+            count += check_png(folder, name, light) + check_exr(folder, name, light)
             count += check_layers(folder, name, light)
     print(f"the same numbers: {count} of {count}")
 

@@ -87,6 +87,7 @@ fn readers_of_others_find_the_same_numbers() {
                 "float.exr --float --error-channel",
                 "layers.exr --float --error-channel --per-light=layers",
                 "npy --error-channel",
+                "npz --error-channel --channels depth,normal,id",
             ] {
                 let render = format!("render {name}.ron --quiet -o {name_of}.{output} {alpha}");
                 let output = folder.run(&render);
@@ -99,5 +100,5 @@ fn readers_of_others_find_the_same_numbers() {
     let python = python.arg(script).arg(&folder.0);
     let output = python.env("PYTHONPATH", packages).output().unwrap();
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-    assert_eq!(text(&output.stdout), "the same numbers: 80 of 80\n");
+    assert_eq!(text(&output.stdout), "the same numbers: 84 of 84\n");
 }

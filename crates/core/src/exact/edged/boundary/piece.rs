@@ -14,9 +14,10 @@ pub(super) struct Piece {
     pub(super) roots: [bool; 2],
 }
 
-/// The values of a function c + b · e of unit vectors e of a piece with these parameters, which vanishes at its ends that
-/// are roots: without the difference of large numbers, which leaves nothing near these ends but rounding. It is taken
-/// from c + b · e itself where no end is.
+/// A function c + b · e at the unit vectors e of a piece with these parameters.
+///
+/// If the piece ends at zeros of the function, its roots, values are computed from the distance to them. Near such an end
+/// c + b · e is a difference of large numbers, of which little but rounding is left.
 ///
 /// # Source
 /// A vector p = e₁ + s d leads from the end e₁ that is a root, with d to the other end, and e = p / |p|. As both ends are
