@@ -51,6 +51,21 @@ fn write_as(
     encoder.files(&path, &DIGEST)
 }
 
+/// The region of a larger picture that an image is.
+fn part_of_a_picture(image: &Image) -> Region {
+    let window = Window {
+        col: 5,
+        row: 7,
+        width: image.width(),
+        height: image.height(),
+    };
+    let whole = Size {
+        width: 100,
+        height: 200,
+    };
+    Region::new(window, whole).unwrap()
+}
+
 /// The numbers of a file, and its array.
 fn read(path: &Path) -> (Array, Vec<f64>) {
     let mut rows = Rows::begin(File::open(path).unwrap()).unwrap();
@@ -98,17 +113,7 @@ fn doubles_come_back_to_the_bit() {
 #[test]
 fn every_file_tells_its_digest_and_its_region() {
     let image = render(Scene::Color, false);
-    let window = Window {
-        col: 2,
-        row: 1,
-        width: image.width(),
-        height: image.height(),
-    };
-    let whole = Size {
-        width: 100,
-        height: 200,
-    };
-    let region = Region::new(window, whole).unwrap();
+    let region = part_of_a_picture(&image);
     let files = write(&image, region, true, "told.npy");
     assert!(files[0].1 == DIGEST && files[1].1 != DIGEST);
     for (path, digest) in files {
@@ -213,17 +218,7 @@ fn every_damage_of_an_archive_is_found() {
     /// Bytes between two that are changed, within arrays.
     const STEP: usize = 997;
     let image = render(Scene::Color, false);
-    let window = Window {
-        col: 5,
-        row: 7,
-        width: image.width(),
-        height: image.height(),
-    };
-    let whole = Size {
-        width: 100,
-        height: 200,
-    };
-    let region = Region::new(window, whole).unwrap();
+    let region = part_of_a_picture(&image);
     let path = write_archive(&image, region, "damaged.npz");
     assert_eq!(load::contents(&path), Ok((DIGEST, region)));
     let bytes = fs::read(&path).unwrap();
