@@ -8,6 +8,7 @@ pub(crate) mod dataset;
 mod dim_light;
 pub(crate) mod farm;
 mod figures;
+mod format_options;
 mod inputs;
 mod legend;
 pub(crate) mod man;

@@ -27,7 +27,8 @@ const MOST_OTHERS: u32 = 1000;
 /// The temporary files of this process. While a thread holds the lock, no such file appears or moves.
 static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// A file in the folder of its destination, or, for the standard output, in that of the system. It is removed if it is dropped before it is complete.
+/// A file in the folder of its destination, or, for the standard output, in that of the system. It is removed if it is
+/// dropped before it is complete.
 #[derive(Debug)]
 pub(crate) struct TemporaryFile {
     /// Locked, if the file system supports locks.

@@ -75,8 +75,9 @@ pub(crate) struct RenderArguments {
     pub(crate) figure: FigureOptions,
 
     /// Names of the files; ####, %04d or {frame:04} stands for the frame number, {scene} for the name of the scene.
-    /// The extension .png, .exr, .npy, .npz or .tif chooses the format; .webp, .gif or .apng puts all frames into one file,
-    /// which plays in a loop. `-` writes a PNG to the standard output, `exr:-` another format [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
+    /// The extension .png, .exr, .npy, .npz or .tif chooses the format; .webp, .gif or .apng puts all frames into one
+    /// file, which plays in a loop. `-` writes a PNG to the standard output, `exr:-` another format [default:
+    /// SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 
