@@ -4,6 +4,7 @@
 //! hierarchy of all spheres, whose boxes are seen along the light as well: it serves all lights.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use fearless_simd::{Level, Simd, dispatch};
 use glam::{DVec2, DVec3};
@@ -23,6 +24,8 @@ use crate::numeric::rounding::UNIT_ROUNDOFF;
 pub(super) struct Occluders<'world> {
     spheres: &'world [Sphere],
     hierarchy: Arc<Hierarchy>,
+    /// A number that no other occluders have but copies of these.
+    name: u32,
     /// The coordinates of the plane.
     right: DVec3,
     up: DVec3,
@@ -45,9 +48,11 @@ struct Shaft {
 impl<'world> Occluders<'world> {
     /// The discs of spheres across a light in the unit direction `toward`.
     pub(super) fn new(spheres: &'world [Sphere], hierarchy: Arc<Hierarchy>, toward: DVec3) -> Self {
+        static NEXT_NAME: AtomicU32 = AtomicU32::new(0);
         let (right, up) = toward.any_orthonormal_pair();
         Self {
             spheres,
+            name: NEXT_NAME.fetch_add(1, Ordering::Relaxed),
             highest: highest(&hierarchy, toward),
             hierarchy,
             right,
@@ -55,6 +60,11 @@ impl<'world> Occluders<'world> {
             toward,
             level: Level::new(),
         }
+    }
+
+    /// A number that no other occluders have but copies of these, up to 2³² of them.
+    pub(super) fn name(&self) -> u32 {
+        self.name
     }
 
     /// Says whether something holds for any sphere in whose disc a point may lie that is known up to

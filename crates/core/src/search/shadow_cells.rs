@@ -48,14 +48,13 @@ const SLOTS_EXPONENT: u32 = 12;
 /// Places for discs that are remembered in all cells: 20 MiB. Not tuned.
 const MOST_PLACES: usize = 1 << 20;
 
-/// Tops of a cell that has no end.
-const ENDLESS: u32 = 1 << 31;
-
 /// A cell: a light, the binary logarithm of its side, and its place in its sides.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 struct Key {
-    /// With [`ENDLESS`], the cell is a column that ends nowhere.
+    /// The name of the light's occluders: memory may serve pictures under one light after the other.
     light: u32,
+    /// Whether it is a column that ends nowhere.
+    is_column: bool,
     exponent: i32,
     place: [i64; 3],
 }
@@ -67,6 +66,7 @@ impl Key {
         /// Odd, and near 2⁶⁴ over the golden ratio.
         const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
         let mut hash = u64::from(self.light) << 32 ^ self.exponent as u64;
+        hash ^= u64::from(self.is_column) << 31;
         for place in self.place {
             hash = (hash.rotate_left(5) ^ place as u64).wrapping_mul(FACTOR);
         }
@@ -90,13 +90,9 @@ impl Key {
     /// The column that begins where the cell does.
     fn column(&self) -> Self {
         Self {
-            light: self.light | ENDLESS,
+            is_column: true,
             ..*self
         }
-    }
-
-    fn is_column(&self) -> bool {
-        self.light & ENDLESS != 0
     }
 
     /// True if the cell begins at the height at which that of the layer above does.
@@ -116,7 +112,7 @@ struct Cell {
     is_crowded: bool,
 }
 
-/// The cells that were asked for last, of the lights of one world.
+/// The cells that were asked for last, of any lights.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShadowCells {
     slots: Vec<Option<Box<Cell>>>,
@@ -167,9 +163,9 @@ impl ShadowCells {
             is_above_own: center < height - around,
         };
         let hides = |index: usize| visibility.hides(index, &to_light, asked.error, asked.sphere);
-        let first = key(light, asked.side, &point);
+        let first = key(occluders.name(), asked.side, &point);
         if let Some(key) = first.filter(|_| visibility.is_moderate())
-            && let Some(is_blocked) = self.walk(simd, visibility, key, &point, hides)
+            && let Some(is_blocked) = self.walk(simd, occluders, key, &point, hides)
         {
             return is_blocked;
         }
@@ -182,12 +178,11 @@ impl ShadowCells {
     fn walk<S: Simd>(
         &mut self,
         simd: S,
-        visibility: &Visibility<'_>,
+        occluders: &Occluders<'_>,
         mut key: Key,
         point: &PointBelow,
         mut holds: impl FnMut(usize) -> bool,
     ) -> Option<bool> {
-        let occluders = visibility.light(key.light as usize).occluders();
         let (least, highest) = (key.exponent - MOST_HALVINGS, occluders.highest());
         // Whether larger cells are to be tried, and how many were passed that are as large as this one.
         let (mut rises, mut passed) = (false, 0);
@@ -211,7 +206,7 @@ impl ShadowCells {
                 return Some(true);
             }
             key.place[2] += 1;
-            if asked.is_column() || key.place[2] as f64 * key.side() > highest {
+            if asked.is_column || key.place[2] as f64 * key.side() > highest {
                 return Some(false);
             }
             passed += 1;
@@ -270,7 +265,7 @@ impl ShadowCells {
             side,
             margin: side * MARGIN,
         };
-        let (end, most) = if key.is_column() {
+        let (end, most) = if key.is_column {
             (f64::INFINITY, MOST_IN_COLUMN)
         } else {
             (z + side, MOST_DISCS)
@@ -296,7 +291,7 @@ fn power(exponent: i32) -> f64 {
 /// The cell that a point's way to the light begins in, if the point is known that well, for a region with
 /// that side.
 #[inline(always)]
-fn key(light: usize, side: f64, point: &PointBelow) -> Option<Key> {
+fn key(light: u32, side: f64, point: &PointBelow) -> Option<Key> {
     const BIAS: i32 = f64::MAX_EXP - 1;
     let exponent = (side.to_bits() >> (f64::MANTISSA_DIGITS - 1)) as i32 - BIAS + LARGER_EXPONENT;
     // A sphere whose top is where the point is may reach above it.
@@ -310,7 +305,7 @@ fn smaller(key: &Key, point: &PointBelow) -> Option<Key> {
     let begin = key.place[2] as f64 * key.side();
     let height = begin.max(point.height - 2.0 * point.around);
     key_at(
-        key.light as usize,
+        key.light,
         key.exponent - 1,
         &PointBelow { height, ..*point },
     )
@@ -318,7 +313,7 @@ fn smaller(key: &Key, point: &PointBelow) -> Option<Key> {
 
 /// The cell of a layer that a point lies in, if the point is known that well.
 #[inline(always)]
-fn key_at(light: usize, exponent: i32, point: &PointBelow) -> Option<Key> {
+fn key_at(light: u32, exponent: i32, point: &PointBelow) -> Option<Key> {
     /// Exponents of cells whose numbers are squared in single precision.
     const MODERATE: std::ops::RangeInclusive<i32> = -36..=36;
     /// Whole numbers below are doubles, with places for halves.
@@ -331,7 +326,8 @@ fn key_at(light: usize, exponent: i32, point: &PointBelow) -> Option<Key> {
     // Half of the margin is for what rounding costs elsewhere.
     let is_known = place.abs().max_element() < MOST && point.around * scale <= 0.5 * MARGIN;
     is_known.then(|| Key {
-        light: light as u32,
+        light,
+        is_column: false,
         exponent,
         place: place.floor().to_array().map(|place| place as i64),
     })

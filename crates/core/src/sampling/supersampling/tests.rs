@@ -95,3 +95,57 @@ fn one_sample_claims_nothing() {
             .all(|pixel| pixel.error == f64::INFINITY)
     );
 }
+
+/// Pictures of one light after the other, of a crowd whose occluders are looked up for each point.
+#[test]
+fn what_is_remembered_of_a_light_is_not_taken_for_another() {
+    let mut random = crate::search::tests::Random(17);
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    for _ in 0..4000 {
+        let center = random.point() * 2.0;
+        world.add_sphere(Sphere::new(center, 0.06).unwrap(), white);
+    }
+    let view = View {
+        camera: Camera {
+            position: DVec3::Z * -8.0,
+            ..Camera::default()
+        },
+        width: 64,
+        height: 64,
+        ..scene().1
+    };
+    let picture = |toward: DVec3, scratch: &mut Scratch| {
+        let mut world = world.clone();
+        world
+            .lights
+            .extend(crate::model::light::Light::directional(toward, Color::ONE));
+        let visibility = Visibility::new(&world);
+        let index = ViewIndex::new(&visibility, &view, RayPoints::All);
+        let one = NonZeroU32::MIN;
+        let samples = Supersampling::new(&world, &view, &index, one, false);
+        let mut pixels = Vec::new();
+        for tile in (0..64).step_by(8).flat_map(|row| {
+            let band = Tile {
+                col: 0,
+                row,
+                width: 64,
+                height: 8,
+            };
+            band.tiles()
+        }) {
+            samples.integrate(tile, scratch, &mut pixels);
+        }
+        let values = pixels.iter().map(|pixel| pixel.value.x.to_bits());
+        values.collect::<Vec<u64>>()
+    };
+    let mut scratch = Scratch::default();
+    for toward in [
+        DVec3::new(0.3, 0.3, -1.0),
+        DVec3::new(-0.3, 0.2, -1.0),
+        DVec3::new(0.0, 1.0, -0.2),
+    ] {
+        let alone = picture(toward, &mut Scratch::default());
+        assert!(picture(toward, &mut scratch) == alone, "{toward}");
+    }
+}

@@ -49,7 +49,7 @@ impl ShadowCells {
             around,
             is_above_own: false,
         };
-        let Some(mut key) = key(light, side, &lowest) else {
+        let Some(mut key) = key(occluders.name(), side, &lowest) else {
             return false;
         };
         let mut above = Above {
@@ -80,7 +80,7 @@ impl ShadowCells {
             let is_sparse = cell.count <= FEW_DISCS;
             above.add(&cell.grid, &below);
             key.place[2] += 1;
-            let is_last = asked.is_column() || key.place[2] as f64 * key.side() > highest;
+            let is_last = asked.is_column || key.place[2] as f64 * key.side() > highest;
             if is_last || above.is_crowd() {
                 return !above.is_crowd();
             }
