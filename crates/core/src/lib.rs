@@ -47,6 +47,7 @@ mod numeric;
 #[doc(hidden)]
 pub mod parallel;
 mod picture;
+mod raster;
 mod render;
 mod sampling;
 mod search;

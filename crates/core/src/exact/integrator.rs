@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use fearless_simd::{Level, dispatch};
 
+use self::crowd_samples::{CrowdSamples, OfCrowds};
 use super::budget::{Allowance, MOST, MOST_AT_A_MOMENT, MOST_SPHERES};
 use super::classify::behind::leave_out_hidden;
 use super::classify::magnitude::is_view_moderate;
@@ -26,6 +27,7 @@ use crate::picture::tile::Tile;
 use crate::sampling::Supersampling;
 use crate::search::view_index::ViewIndex;
 
+mod crowd_samples;
 mod range;
 mod scattered;
 
@@ -52,6 +54,8 @@ pub(crate) struct Exact<'scene> {
     samples: Supersampling<'scene>,
     few_samples: Supersampling<'scene>,
     blocks: CrowdBlocks,
+    /// The samples that answer for pixels of crowds, to loose tolerances.
+    crowd: Option<CrowdSamples<'scene>>,
     /// The least and the most light that any pixel may show, once a crowd asks.
     range: OnceLock<[Color; 2]>,
     level: Level,
@@ -75,12 +79,15 @@ const OF_COVERAGE: f64 = 0.25;
 
 /// Memory for a thread.
 #[derive(Debug, Default)]
-pub(crate) struct GroupScratch(Scratch);
+pub(crate) struct GroupScratch {
+    exact: Scratch,
+    of_crowds: OfCrowds,
+}
 
 impl GroupScratch {
     /// The units that the pixel at a place of the last tile has cost.
     pub(crate) fn cost_of(&self, place: usize) -> u64 {
-        self.0.lit.iter().map(|lit| lit.costs.of(place)).sum()
+        self.exact.lit.iter().map(|lit| lit.costs.of(place)).sum()
     }
 }
 
@@ -129,6 +136,7 @@ impl<'scene> Exact<'scene> {
             samples: Supersampling::new(world, view, index, SAMPLES, alpha),
             few_samples: Supersampling::new(world, view, index, FEW_SAMPLES, alpha),
             blocks: CrowdBlocks::new(view.width, view.height),
+            crowd: CrowdSamples::new(world, view, index, tolerance, alpha),
             index: index.clone(),
             range: OnceLock::new(),
             level: Level::new(),
@@ -142,6 +150,7 @@ impl<'scene> Exact<'scene> {
             context.of_crowds = context.of_crowds.divided_by(MOST / MOST_AT_A_MOMENT);
             context.normals = None;
         }
+        self.crowd = None;
         self
     }
 
@@ -161,9 +170,12 @@ impl<'scene> Exact<'scene> {
         scratch: &mut GroupScratch,
         pixels: &mut Vec<Pixel>,
     ) -> Work {
-        let candidates = self.candidates(tile);
-        integrate_each(&[self], tile, candidates, scratch, |_, found| {
-            pixels.extend_from_slice(found);
+        integrate_each(&[self], tile, scratch, |_, found| {
+            if let Some(found) = found {
+                pixels.extend_from_slice(found);
+            } else {
+                pixels.extend((0..tile.count()).map(|_| self.empty_pixel()));
+            }
         })
     }
 
@@ -173,16 +185,13 @@ impl<'scene> Exact<'scene> {
         integrators: &[&Self],
         tile: Tile,
         scratch: &mut GroupScratch,
-        write: impl FnMut(usize, &[Pixel]),
+        mut write: impl FnMut(usize, &[Pixel]),
     ) -> Work {
-        let candidates = match integrators.first() {
-            Some(first) => first.candidates(tile),
-            None => return Work::default(),
-        };
-        if candidates.spheres.is_empty() {
-            return Work::default();
-        }
-        integrate_each(integrators, tile, candidates, scratch, write)
+        integrate_each(integrators, tile, scratch, |index, pixels| {
+            if let Some(pixels) = pixels {
+                write(index, pixels);
+            }
+        })
     }
 
     fn candidates(&self, tile: Tile) -> Candidates {
@@ -213,7 +222,7 @@ impl<'scene> Exact<'scene> {
         tile: Tile,
         (candidates, is_moderate): (&[usize], bool),
         lit: &'lit mut [LitTile],
-    ) -> (&'lit [Pixel], Work) {
+    ) -> (&'lit mut [Pixel], Work) {
         let mut work = Work::default();
         let Some((
             LitTile {
@@ -227,7 +236,7 @@ impl<'scene> Exact<'scene> {
             others,
         )) = lit.split_first_mut()
         else {
-            return (&[], work);
+            return (&mut [], work);
         };
         for other in others {
             *unknown |= other.unknown;
@@ -311,36 +320,53 @@ pub(crate) fn paint_each(
     tile: Tile,
     scratch: &mut GroupScratch,
 ) -> Work {
-    let Some((first, _)) = pictures.first() else {
-        return Work::default();
-    };
-    let candidates = first.candidates(tile);
-    if candidates.spheres.is_empty() {
-        // Most pictures have empty tiles.
-        for (exact, band) in pictures {
-            band.write_same(tile, &exact.empty_pixel());
-        }
-        return Work::default();
-    }
     let integrators: Vec<&Exact<'_>> = pictures.iter().map(|(exact, _)| *exact).collect();
-    integrate_each(&integrators, tile, candidates, scratch, |index, pixels| {
-        pictures[index].1.write(tile, pixels);
+    integrate_each(&integrators, tile, scratch, |index, pixels| {
+        let (exact, band) = &mut pictures[index];
+        match pixels {
+            Some(pixels) => band.write(tile, pixels),
+            // Most pictures have empty tiles.
+            None => band.write_same(tile, &exact.empty_pixel()),
+        }
     })
 }
 
-/// Calls `write` with the number of each of some integrators, and the tile's pixels; returns what they cost.
+/// Calls `write` with the number of each of some integrators, and the tile's pixels, or none where no sphere may be seen;
+/// returns what they cost.
 ///
 /// The integrators have the view and its index in common.
 fn integrate_each(
     integrators: &[&Exact<'_>],
     tile: Tile,
-    candidates: Candidates,
-    GroupScratch(scratch): &mut GroupScratch,
-    mut write: impl FnMut(usize, &[Pixel]),
+    GroupScratch {
+        exact: scratch,
+        of_crowds,
+    }: &mut GroupScratch,
+    mut write: impl FnMut(usize, Option<&[Pixel]>),
 ) -> Work {
     let Some(first) = integrators.first() else {
         return Work::default();
     };
+    let of_integrators = integrators.iter().map(|exact| exact.crowd.as_ref());
+    let mut work = of_crowds.find(of_integrators, tile);
+    let known = of_crowds.known();
+    let all = (1_u128 << tile.count()) - 1;
+    if u128::from(known) & all == all {
+        scratch.leave_out(tile);
+        for index in 0..integrators.len() {
+            let pixels = of_crowds.all(index);
+            write(index, pixels.as_deref());
+        }
+        return work;
+    }
+    let candidates = first.candidates(tile);
+    if candidates.spheres.is_empty() {
+        scratch.leave_out(tile);
+        for index in 0..integrators.len() {
+            write(index, None);
+        }
+        return work;
+    }
     let contexts = integrators.iter().flat_map(|exact| &exact.groups);
     let contexts: Vec<&Context<'_>> = contexts.collect();
     let Candidates {
@@ -352,6 +378,7 @@ fn integrate_each(
         scratch.prepare(contexts[0], &spheres);
     }
     scratch.begin(&contexts, tile, count);
+    scratch.known = known;
     let is_moderate = !is_hopeless && first.is_moderate && scratch.are_balls_moderate();
     if is_moderate && spheres.len() > MOST_SPHERES {
         leave_out_hidden(&contexts[0].cell(tile), &mut spheres, &mut scratch.balls);
@@ -361,17 +388,18 @@ fn integrate_each(
         dispatch!(first.level, simd => tile_pixels(simd, &contexts, tile, candidates, scratch));
     } else {
         for lit in &mut scratch.lit {
-            lit.unknown = !0;
+            lit.unknown = !known;
         }
     }
-    let mut work = scratch.take_work();
+    work += scratch.take_work();
     let mut rest = &mut scratch.lit[..];
     for (index, exact) in integrators.iter().enumerate() {
         let lit;
         (lit, rest) = std::mem::take(&mut rest).split_at_mut(exact.groups.len());
         let (pixels, more) = exact.sum(tile, (candidates, is_moderate), lit);
         work += more;
-        write(index, pixels);
+        of_crowds.replace(index, pixels);
+        write(index, Some(pixels));
     }
     work
 }

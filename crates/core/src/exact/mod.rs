@@ -5,6 +5,7 @@
 //!
 //! | rung | answer | worth | leaves to the next rung |
 //! |---|---|---|---|
+//! | a crowd, to loose tolerances: [`integrator`], `raster` | a regular grid of samples in each pixel of a tile | estimate | what the raster does not know, claims above the tolerance |
 //! | no sphere: [`classify`] | the background | bound | pixels that may see a sphere |
 //! | one sphere without light: [`interior`] | the ambient light | bound | pixels that a light reaches |
 //! | one sphere: [`interior`] | rules with 1, 5, 9 or 17 samples, of bumps in parts | bound on smooth spheres, as a rule; else estimate | edges, and light that bends too much |
@@ -63,6 +64,8 @@ struct Scratch {
     balls: Vec<Ball>,
     seen: SeenRow,
     edged: Workspace,
+    /// The pixels of the last tile that are known without, bit by bit.
+    known: u64,
     /// The last tile, under one group of lights after the other.
     lit: Vec<LitTile>,
 }
@@ -99,6 +102,13 @@ impl Scratch {
         let others = contexts[self.lit.len()..].iter();
         self.lit
             .extend(others.map(|context| LitTile::new(context, tile, candidates)));
+    }
+
+    /// Takes note of a tile whose pixels cost nothing.
+    fn leave_out(&mut self, tile: Tile) {
+        for lit in &mut self.lit {
+            lit.costs.clear(tile.count());
+        }
     }
 
     /// Whether the numbers of all candidates are moderate enough for edges in doubles.
@@ -166,6 +176,7 @@ fn tile_pixels<S: Simd>(
         seen,
         edged,
         lit,
+        known,
     } = scratch;
     let (Some(first), Some(first_lit)) = (contexts.first(), lit.first()) else {
         return;
@@ -185,9 +196,13 @@ fn tile_pixels<S: Simd>(
                 height: 1,
             };
             let place = (row * tile.width + left) as usize;
+            let known = *known >> place & ((1 << start.width) - 1);
+            if known == (1 << start.width) - 1 {
+                continue;
+            }
             if candidates.len() > MOST_SPHERES && seen.crowds.left() == 0 {
                 for lit in &mut *lit {
-                    lit.unknown |= ((1 << start.width) - 1) << place;
+                    lit.unknown |= (((1 << start.width) - 1) & !known) << place;
                 }
                 continue;
             }
@@ -200,10 +215,17 @@ fn tile_pixels<S: Simd>(
                 lit.crowds.spend(looking);
                 // Pixels that see no sphere are empty already; those with edges climb alone.
                 for (lane, spheres) in seen.edged() {
+                    if known >> lane & 1 == 1 {
+                        continue;
+                    }
                     lit.climb(simd, context, (start, place), (lane, spheres), edged);
                 }
             }
             for (coverage, which) in seen.filled() {
+                let which = which & !known;
+                if which == 0 {
+                    continue;
+                }
                 let row = FilledRow {
                     start: Tile { width: 1, ..start },
                     which,

@@ -363,7 +363,7 @@ fn pictures_of_crowds_end() {
             };
             let mut pixels = Vec::new();
             exact.integrate(tile, &mut room, &mut pixels);
-            most = most.max(room.0.lit[0].crowds.spent());
+            most = most.max(room.exact.lit[0].crowds.spent());
             for pixel in pixels {
                 // No more than between white and black, no less than a mixture of both may be off.
                 assert!(pixel.error <= 0.901, "{case}: {pixel:?}");

@@ -1,0 +1,269 @@
+//! The means over pixels, and their errors, as neighboring samples tell them.
+//!
+//! An edge that crosses the way between two neighbors is somewhere on it: the mean is off by a part of what they
+//! differ by, times the share that a sample has in the pixel. The errors of many edges add up as their squares do.
+//! An edge along the grid lies between the same two rows or columns over a part of the pixel: there differences are
+//! summed before they are squared. Ways over the border of the pixel count half: half of their edges are in it.
+//!
+//! Neighbors that see different balls are taken to differ at least by a part of the contrast, whatever their light:
+//! a third ball or a shadow may lie between them.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8, mask32x8};
+
+use super::depth::read;
+use super::samples::{NONE, Samples};
+use crate::model::color::Color;
+use crate::numeric::lanes::LANES;
+use crate::picture::image::Channels;
+use crate::picture::tile::Tile;
+
+/// A pixel by samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Judged {
+    pub(crate) value: Color,
+    pub(crate) alpha: f64,
+    /// The standard error of both, of alpha times the unit of light; infinite if a sample could not be decided.
+    pub(crate) error: f64,
+}
+
+/// What differences count.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weights {
+    /// Samples on a side of a pixel.
+    pub(super) side: usize,
+    pub(super) channels: Channels,
+    /// The light by parts of which samples of different balls differ at least.
+    pub(super) of_spheres: f64,
+    /// The brightest channel of the background, in units.
+    pub(super) of_background: f64,
+}
+
+/// The standard error of an edge that crosses the way between two neighbors, in parts of its contrast and of a
+/// sample's area: 1/√12 for one that may be anywhere on it, less for a long one, which is at different places on
+/// different ways.
+const OF_PAIR: f64 = 0.22;
+
+/// The same for an edge along the grid, whose errors are the same on all ways.
+const OF_LINE: f64 = 0.15;
+
+/// The part of the contrast by which samples of different balls are taken to differ.
+const OF_SPHERES: f64 = 0.3;
+
+/// The part of the light that may pass, or be kept, between two neighbors by which they are taken to differ, times
+/// the root of the number of samples on a side: a thin strip of light or shadow is as long as an edge, and what it
+/// adds is the same on all of its ways.
+const OF_PASSING: f64 = 0.25;
+
+const SIDE: usize = Tile::SIDE as usize;
+
+/// Sums over the ways between the samples of a row of pixels, for each column of samples.
+struct Sums {
+    /// The squares of the differences, and the differences that are rises and falls, layer by layer.
+    pairs: Vec<f32>,
+    /// The light that strips at edges may add or take.
+    edges: Vec<f32>,
+    rises: Vec<Vec<f32>>,
+    falls: Vec<Vec<f32>>,
+}
+
+/// The pixels of a tile, row by row.
+#[inline(always)]
+pub(super) fn pixels<S: Simd>(
+    simd: S,
+    samples: &Samples,
+    weights: &Weights,
+) -> [Judged; SIDE * SIDE] {
+    let mut judged = [Judged {
+        value: Color::ZERO,
+        alpha: 0.0,
+        error: 0.0,
+    }; SIDE * SIDE];
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            for (row, pixels) in judged.chunks_exact_mut(SIDE).enumerate() {
+                of_row(simd, samples, weights, (row, pixels));
+            }
+        },
+    );
+    judged
+}
+
+/// The same of a row of pixels.
+#[inline(always)]
+fn of_row<S: Simd>(
+    simd: S,
+    samples: &Samples,
+    weights: &Weights,
+    (row, pixels): (usize, &mut [Judged]),
+) {
+    let (side, stride) = (weights.side, samples.stride);
+    let first = row * side + 1;
+    let rows = first..first + side;
+    // The squares of differences and of sums of differences, by pixel.
+    let (mut pairs, mut lines) = ([0.0_f64; SIDE], [0.0_f64; SIDE]);
+    let share = |number: usize| {
+        if number == 0 || number == side {
+            0.5
+        } else {
+            1.0
+        }
+    };
+
+    // Ways from one column to the next.
+    let mut sums = Sums::new(samples);
+    for row in rows.clone() {
+        sums.add(simd, (samples, weights), row * stride, 1);
+    }
+    for pixel in 0..SIDE {
+        for number in 0..=side {
+            let column = pixel * side + number;
+            pairs[pixel] += share(number) * f64::from(sums.pairs[column]);
+            lines[pixel] += share(number) * sums.lines(column..column + 1);
+        }
+    }
+    // Ways from one row to the next.
+    for number in 0..=side {
+        sums.clear();
+        sums.add(
+            simd,
+            (samples, weights),
+            (first + number - 1) * stride,
+            stride,
+        );
+        for pixel in 0..SIDE {
+            let columns = pixel * side + 1..pixel * side + 1 + side;
+            let of_row: f32 = sums.pairs[columns.clone()].iter().sum();
+            pairs[pixel] += share(number) * f64::from(of_row);
+            lines[pixel] += share(number) * sums.lines(columns);
+        }
+    }
+    let count = (side * side) as f64;
+    for (pixel, judged) in pixels.iter_mut().enumerate() {
+        let columns = pixel * side + 1..pixel * side + 1 + side;
+        let (mut covered, mut doubts) = (0_u32, 0.0);
+        let mut sum = Color::ZERO;
+        for row in rows.clone() {
+            let places = row * stride + columns.start..row * stride + columns.end;
+            for place in places.clone() {
+                covered += u32::from(samples.balls[place] != NONE);
+                doubts += samples.doubts[place];
+            }
+            for channel in 0..weights.channels.count() {
+                let of_row: f32 = samples.light[channel][places.clone()].iter().sum();
+                sum[channel] += f64::from(of_row);
+            }
+        }
+        if weights.channels == Channels::Grey {
+            sum = Color::splat(sum.x);
+        }
+        let error = (OF_PAIR * pairs[pixel].sqrt()).max(OF_LINE * lines[pixel].sqrt());
+        *judged = Judged {
+            value: sum / count,
+            alpha: f64::from(covered) / count,
+            error: if doubts > 0.0 {
+                f64::INFINITY
+            } else {
+                error / count
+            },
+        };
+    }
+}
+
+impl Sums {
+    fn new(samples: &Samples) -> Self {
+        let none = vec![0.0; samples.stride];
+        Self {
+            rises: vec![none.clone(); samples.light.len()],
+            falls: vec![none.clone(); samples.light.len()],
+            edges: none.clone(),
+            pairs: none,
+        }
+    }
+
+    fn clear(&mut self) {
+        self.pairs.fill(0.0);
+        self.edges.fill(0.0);
+        for layer in self.rises.iter_mut().chain(&mut self.falls) {
+            layer.fill(0.0);
+        }
+    }
+
+    /// Adds the ways from each sample of a row, from this place on, to the one so many places behind.
+    #[inline(always)]
+    fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        (samples, weights): (&Samples, &Weights),
+        first: usize,
+        step: usize,
+    ) {
+        let zero = f32x8::splat(simd, 0.0);
+        let of_spheres = OF_SPHERES * weights.of_spheres;
+        let of_spheres = f32x8::splat(simd, (of_spheres * of_spheres) as f32);
+        let background = f32x8::splat(simd, weights.of_background as f32);
+        let of_passing = (OF_PASSING * (weights.side as f64).sqrt()) as f32;
+        for column in (0..samples.stride - LANES).step_by(LANES) {
+            let place = first + column;
+            let places = column..column + LANES;
+            let mut most = zero;
+            let mut brightest = zero;
+            for (layer, light) in samples.light.iter().enumerate() {
+                let [one, other] = two(simd, light, (place, step));
+                let change = other - one;
+                most = most.max(change.abs());
+                brightest = brightest.max(one).max(other);
+                let sums = [
+                    (&mut self.rises, change.max(zero)),
+                    (&mut self.falls, change.min(zero)),
+                ];
+                for (sums, change) in sums {
+                    let sums = &mut sums[layer][places.clone()];
+                    (f32x8::from_slice(simd, sums) + change).store_slice(sums);
+                }
+            }
+            let balls = two(simd, &samples.balls, (place, step));
+            let names = two(simd, &samples.occluders, (place, step));
+            let kept = two(simd, &samples.kept, (place, step));
+            let same: mask32x8<S> = balls[0].simd_eq(balls[1]);
+            let dark = kept[0].simd_gt(zero) & kept[1].simd_gt(zero);
+            let kept = kept[0].max(kept[1]);
+            // On a ball light may pass between two others that keep it from both; at its edge there may be a strip
+            // of shadow, too, or of what is behind.
+            let is_between = dark & !names[0].simd_eq(names[1]);
+            let on_ball = is_between.select(kept, zero);
+            let at_edge = same.select(zero, (kept + brightest).max(background));
+            let passing = (on_ball + at_edge) * of_passing;
+            let edges = &mut self.edges[places.clone()];
+            (f32x8::from_slice(simd, edges) + at_edge).store_slice(edges);
+            let square = most * most + same.select(zero, of_spheres) + passing * passing;
+            let pairs = &mut self.pairs[places];
+            (f32x8::from_slice(simd, pairs) + square).store_slice(pairs);
+        }
+    }
+
+    /// The squares of the sums of rises and of falls over some columns, in the layer where they are largest, and of
+    /// what strips at edges may add.
+    fn lines(&self, columns: std::ops::Range<usize>) -> f64 {
+        let mut most = 0.0_f64;
+        for (rises, falls) in self.rises.iter().zip(&self.falls) {
+            let [rise, fall] = [rises, falls].map(|layer| {
+                let sum: f32 = layer[columns.clone()].iter().sum();
+                f64::from(sum)
+            });
+            most = most.max(rise * rise + fall * fall);
+        }
+        let edges: f32 = self.edges[columns].iter().sum();
+        most + f64::from(edges) * f64::from(edges)
+    }
+}
+
+/// Eight numbers from a place on, and those so many places behind.
+#[inline(always)]
+fn two<S: Simd>(simd: S, numbers: &[f32], (place, step): (usize, usize)) -> [f32x8<S>; 2] {
+    [
+        read(simd, numbers, place),
+        read(simd, numbers, place + step),
+    ]
+}

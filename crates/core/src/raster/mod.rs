@@ -1,0 +1,224 @@
+//! Crowds of small spheres, rasterized: every ball of a tile is held against the samples that it covers.
+//!
+//! A pixel of a crowd sees several balls. To a loose tolerance a regular grid of samples knows it in less time than
+//! its edges take, and neighboring samples tell how well. [`plane`] has the places of a tile's samples, with one
+//! row or column of others on every side. [`depth`] finds the nearest ball of each ([`ball`]), [`shade`] its light,
+//! which other balls keep from it ([`occluders`]); [`judge`] sums the samples of a pixel, and estimates what their
+//! mean is off by.
+//!
+//! All of it computes in single precision, with one rounding an operation and in an order that nothing but the tile
+//! decides. Samples that this cannot decide are marked, and their pixels left to others. What it does not know, it
+//! leaves to others, too: tiles with balls that are large, smaller than the distance of samples, or around the eye,
+//! or with too many.
+
+mod ball;
+mod depth;
+mod judge;
+mod lit;
+mod occluders;
+mod plane;
+mod samples;
+mod shade;
+#[cfg(test)]
+mod tests;
+
+use fearless_simd::{Level, dispatch};
+
+use self::ball::RasterBall;
+pub(crate) use self::judge::Judged;
+use self::lit::Sun;
+use self::occluders::Occluders;
+use self::plane::Plane;
+use self::samples::Samples;
+use crate::model::camera::Projection;
+use crate::model::color::Color;
+use crate::model::light::Light;
+use crate::model::light_unit::LightUnit;
+use crate::model::material::Material;
+use crate::model::view::View;
+use crate::model::world::World;
+use crate::picture::image::Channels;
+use crate::picture::tile::Tile;
+use crate::search::view_index::ViewIndex;
+
+/// The pixels of a tile.
+const PIXELS: usize = (Tile::SIDE * Tile::SIDE) as usize;
+
+/// The balls of which fewer in a tile are no crowd. Not tuned finely.
+const FEWEST: usize = 16;
+
+/// The balls of a tile of which more are left to what counts the work on them.
+const MOST: usize = 2048;
+
+/// More than roundings move the light of a sample by, in contrasts.
+const ROUNDING: f64 = 1e-6;
+
+/// A view of a world whose crowds can be rasterized.
+#[derive(Clone, Debug)]
+pub(crate) struct Raster<'scene> {
+    index: ViewIndex<'scene>,
+    world: &'scene World,
+    view: View,
+    channels: Channels,
+    suns: Vec<Sun>,
+    /// The light of rays that meet nothing, and that from everywhere, in units.
+    background: Color,
+    ambient: Color,
+    has_alpha: bool,
+    /// The unit of light.
+    unit: f64,
+    /// The largest difference between what two rays may see, in units.
+    contrast: f64,
+    level: Level,
+}
+
+/// Memory to work in, for one world and its lights.
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
+    balls: Vec<RasterBall>,
+    samples: Samples,
+    occluders: Occluders,
+}
+
+impl<'scene> Raster<'scene> {
+    /// The raster of a view, if it knows all that the world has: suns, matte materials, and a central lens.
+    pub(crate) fn new(
+        world: &'scene World,
+        view: &View,
+        index: &ViewIndex<'scene>,
+        alpha: bool,
+    ) -> Option<Self> {
+        let lights = index.visibility.lights();
+        let is_known = world.spheres().len() >= FEWEST
+            && world.materials().iter().all(is_matte)
+            && view.lens.projection() == Projection::Central
+            && lights
+                .iter()
+                .all(|light| matches!(light, Light::Directional(_)));
+        if !is_known {
+            return None;
+        }
+        let LightUnit { unit, .. } = LightUnit::new(world, lights);
+        let background = if alpha { Color::ZERO } else { world.background };
+        let [dark, bright] = world.range_of_light(lights, background);
+        let contrast = (bright - dark)
+            .max_element()
+            .max(if alpha { unit } else { 0.0 });
+        Some(Self {
+            index: index.clone(),
+            world,
+            view: *view,
+            channels: Channels::of(world, alpha),
+            suns: Sun::all(lights, unit, view, &index.visibility, world.shadows),
+            background: background / unit,
+            ambient: world.ambient / unit,
+            has_alpha: alpha,
+            unit,
+            contrast: contrast / unit,
+            level: Level::new(),
+        })
+    }
+
+    /// The largest difference between what two rays may see.
+    pub(crate) fn contrast(&self) -> f64 {
+        self.contrast * self.unit
+    }
+
+    /// True if balls keep light from each other.
+    pub(crate) fn has_shadows(&self) -> bool {
+        self.world.shadows
+    }
+
+    /// The pixels of one of the tiles that pictures are divided into, in the order of [`Tile::pixels`], by `side` ×
+    /// `side` samples each; none if they can not be known so.
+    pub(crate) fn pixels(
+        &self,
+        tile: Tile,
+        side: u32,
+        scratch: &mut Scratch,
+    ) -> Option<[Judged; PIXELS]> {
+        let Scratch {
+            balls,
+            samples,
+            occluders,
+        } = scratch;
+        let plane = Plane::new(&self.view, tile, side);
+        if !plane.is_moderate() || !self.gather(tile, &plane, balls) {
+            return None;
+        }
+        let layers = self.channels.count() + usize::from(self.has_alpha);
+        samples.reset(&plane, layers);
+        dispatch!(self.level, simd => {
+            depth::find_nearest(simd, &plane, balls, samples);
+        });
+        samples.find_seen(balls.len());
+        occluders.reset();
+        for (number, ball) in balls.iter().enumerate() {
+            if !samples.sees(number) {
+                continue;
+            }
+            if !occluders.find(&self.suns, &self.index.visibility, &self.view, ball) {
+                return None;
+            }
+            dispatch!(self.level, simd => {
+                self.shade(simd, &plane, (number as f32, ball), occluders, samples);
+            });
+        }
+        self.fill_background(samples);
+        let mut pixels = dispatch!(self.level, simd => {
+            judge::pixels(simd, samples, &self.weights(side))
+        });
+        for pixel in &mut pixels {
+            pixel.value *= self.unit;
+            pixel.error = (pixel.error + ROUNDING * self.contrast) * self.unit;
+        }
+        Some(pixels)
+    }
+
+    /// The number of different balls that the samples of each pixel of the last tile see.
+    pub(crate) fn balls_seen(side: u32, scratch: &Scratch) -> [usize; PIXELS] {
+        const SIDE: usize = Tile::SIDE as usize;
+        std::array::from_fn(|place| {
+            let (column, row) = (place % SIDE, place / SIDE);
+            scratch.samples.balls_of_pixel(side as usize, column, row)
+        })
+    }
+
+    /// Gathers the balls of a tile; false if some are not for a raster.
+    fn gather(&self, tile: Tile, plane: &Plane, balls: &mut Vec<RasterBall>) -> bool {
+        balls.clear();
+        let from_world = self.view.camera.world_from_camera.transpose();
+        let mut beginning = None;
+        for ball in self.index.balls(tile) {
+            let center = from_world * ball.to_center;
+            let beginning = *beginning.get_or_insert(center.z);
+            let index = ball.index as usize;
+            let raster_ball = RasterBall::new(ball, center, beginning, plane);
+            let Some(raster_ball) = raster_ball.filter(|_| balls.len() < MOST) else {
+                return false;
+            };
+            balls.push(RasterBall {
+                albedo: self.world.albedo(index),
+                ..raster_ball
+            });
+        }
+        balls.len() >= FEWEST
+    }
+
+    fn weights(&self, side: u32) -> judge::Weights {
+        judge::Weights {
+            side: side as usize,
+            channels: self.channels,
+            of_spheres: self.contrast,
+            of_background: self.background.max_element(),
+        }
+    }
+}
+
+/// Returns whether a material scatters light evenly and has no detail of its own.
+fn is_matte(material: &Material) -> bool {
+    material.exponent == 1.0
+        && material.highlight.is_none()
+        && material.roughness.is_none()
+        && material.outline.is_none()
+}

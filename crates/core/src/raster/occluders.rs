@@ -1,0 +1,111 @@
+//! The spheres that keep light from a ball.
+
+use super::ball::RasterBall;
+use super::lit::Sun;
+use crate::model::view::View;
+use crate::picture::tile::Tile;
+use crate::search::discs::Disc;
+use crate::search::shadow_cells::ShadowCells;
+use crate::search::visibility::Visibility;
+
+/// More occluders are left to others.
+const MOST: usize = 512;
+
+/// Larger ones, in radii of the ball, have edges that single precision does not place well.
+const LARGEST: f64 = 1024.0;
+
+/// The spheres that may keep light from one ball.
+#[derive(Debug, Default)]
+pub(super) struct Occluders {
+    cells: ShadowCells,
+    found: Vec<Disc>,
+    /// For each light the end of its occluders.
+    pub(super) ends: Vec<usize>,
+    pub(super) list: Vec<Occluder>,
+}
+
+/// A sphere that may keep a light from a ball, with lengths in radii of the ball, from its center.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Occluder {
+    /// Its center, across the light and toward it.
+    pub(super) right: f32,
+    pub(super) up: f32,
+    pub(super) above: f32,
+    pub(super) radius_square: f32,
+    /// A number from 0 to 1 that tells it from most others.
+    pub(super) name: f32,
+}
+
+impl Occluders {
+    pub(super) fn reset(&mut self) {
+        self.ends.clear();
+        self.list.clear();
+    }
+
+    /// Finds those of a ball under all lights; false if they are too many or too large.
+    pub(super) fn find(
+        &mut self,
+        suns: &[Sun],
+        visibility: &Visibility<'_>,
+        view: &View,
+        ball: &RasterBall,
+    ) -> bool {
+        self.reset();
+        let spheres = visibility.spheres();
+        let own = &spheres[ball.index as usize];
+        let side = view.pixel_size().max_element() / view.magnification()
+            * f64::from(Tile::SIDE)
+            * (own.center() - view.camera.position).abs().max_element();
+        for sun in suns {
+            if sun.has_shadows {
+                self.found.clear();
+                let light = visibility.light(sun.light);
+                let index = ball.index as usize;
+                let asked = (sun.light, index, side);
+                let kept = light.of_sphere(index);
+                let discs = if let Some(kept) = kept {
+                    kept
+                } else {
+                    let is_found = !light.keeps()
+                        && self.cells.discs_before(visibility, asked, &mut self.found);
+                    if !is_found {
+                        self.found.clear();
+                        light.find(index, &[own.center()], own.radius(), &mut self.found);
+                    }
+                    &self.found
+                };
+                if discs.len() > MOST {
+                    return false;
+                }
+                for disc in discs {
+                    let sphere = &spheres[disc.sphere as usize];
+                    let size = sphere.radius() / own.radius();
+                    if size > LARGEST {
+                        return false;
+                    }
+                    let way = (sphere.center() - own.center()) / own.radius();
+                    let across = sun.project(way);
+                    self.list.push(Occluder {
+                        right: across.x as f32,
+                        up: across.y as f32,
+                        above: way.dot(sun.in_world) as f32,
+                        radius_square: (size * size) as f32,
+                        name: name(disc.sphere),
+                    });
+                }
+            }
+            self.ends.push(self.list.len());
+        }
+        true
+    }
+}
+
+/// A number from 0 to 1 for a sphere.
+fn name(sphere: u32) -> f32 {
+    /// Odd, and near 2³² over the golden ratio.
+    const FACTOR: u32 = 0x9e37_79b1;
+    /// Bits that single precision holds.
+    const BITS: u32 = f32::MANTISSA_DIGITS;
+    let hash = sphere.wrapping_add(1).wrapping_mul(FACTOR) >> (u32::BITS - BITS);
+    hash as f32 / (1_u32 << BITS) as f32
+}
