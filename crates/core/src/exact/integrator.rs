@@ -170,7 +170,7 @@ impl<'scene> Exact<'scene> {
         scratch: &mut GroupScratch,
         pixels: &mut Vec<Pixel>,
     ) -> Work {
-        integrate_each(&[self], tile, scratch, |_, found| {
+        integrate_each(&[self], tile, scratch, &mut |_, found| {
             if let Some(found) = found {
                 pixels.extend_from_slice(found);
             } else {
@@ -187,7 +187,7 @@ impl<'scene> Exact<'scene> {
         scratch: &mut GroupScratch,
         mut write: impl FnMut(usize, &[Pixel]),
     ) -> Work {
-        integrate_each(integrators, tile, scratch, |index, pixels| {
+        integrate_each(integrators, tile, scratch, &mut |index, pixels| {
             if let Some(pixels) = pixels {
                 write(index, pixels);
             }
@@ -321,7 +321,7 @@ pub(crate) fn paint_each(
     scratch: &mut GroupScratch,
 ) -> Work {
     let integrators: Vec<&Exact<'_>> = pictures.iter().map(|(exact, _)| *exact).collect();
-    integrate_each(&integrators, tile, scratch, |index, pixels| {
+    integrate_each(&integrators, tile, scratch, &mut |index, pixels| {
         let (exact, band) = &mut pictures[index];
         match pixels {
             Some(pixels) => band.write(tile, pixels),
@@ -342,7 +342,7 @@ fn integrate_each(
         exact: scratch,
         of_crowds,
     }: &mut GroupScratch,
-    mut write: impl FnMut(usize, Option<&[Pixel]>),
+    write: &mut dyn FnMut(usize, Option<&[Pixel]>),
 ) -> Work {
     let Some(first) = integrators.first() else {
         return Work::default();

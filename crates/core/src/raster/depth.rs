@@ -1,12 +1,11 @@
 //! The nearest ball of every sample.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8};
+use fearless_simd::Simd;
 
 use super::ball::RasterBall;
 use super::plane::Plane;
 use super::samples::Samples;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f32x8};
 
 /// The numbers of a ball at eight samples of a row: see [`RasterBall`].
 #[derive(Clone, Copy)]
@@ -54,22 +53,16 @@ impl<S: Simd> Row<S> {
     #[inline(always)]
     pub(super) fn at(&self, simd: S, plane: &Plane, column: usize) -> At<S> {
         let columns = &plane.columns;
-        let square = read(simd, &columns.squares, column) + self.square;
-        let right = read(simd, &columns.from_middle, column) * self.scale - self.offset;
+        let square = f32x8::read(simd, &columns.squares, column) + self.square;
+        let right = f32x8::read(simd, &columns.from_middle, column) * self.scale - self.offset;
         let turned = self.across - self.at_y * right;
         At {
-            x: read(simd, &columns.places, column),
+            x: f32x8::read(simd, &columns.places, column),
             square,
             right,
             discriminant: square - right * right - self.up_square - turned * turned,
         }
     }
-}
-
-/// Eight numbers from a place on.
-#[inline(always)]
-pub(super) fn read<S: Simd>(simd: S, numbers: &[f32], place: usize) -> f32x8<S> {
-    f32x8::from_slice(simd, &numbers[place..place + LANES])
 }
 
 /// Holds balls against the samples that they may cover.
@@ -121,23 +114,20 @@ fn hold<S: Simd>(
             let root = discriminant.max(zero).sqrt();
             let key = depth * square - radius * (x * right + of_row.y * of_row.up + root);
             let place = row * samples.stride + column;
-            let places = place..place + LANES;
-            let known = f32x8::from_slice(simd, &samples.keys[places.clone()]);
+            let known = f32x8::read(simd, &samples.keys, place);
             let apart = known - key;
             let is_close = met & apart.abs().simd_lt(blur);
             let is_nearer = met & apart.simd_gt(zero);
             if !(is_nearer | is_close).any_true() {
                 continue;
             }
-            let doubts = f32x8::from_slice(simd, &samples.doubts[places.clone()]);
+            let doubts = f32x8::read(simd, &samples.doubts, place);
             let doubts = is_close.select(one, is_nearer.select(zero, doubts));
-            let nearest = f32x8::from_slice(simd, &samples.balls[places.clone()]);
+            let nearest = f32x8::read(simd, &samples.balls, place);
             let nearest = is_nearer.select(number, nearest);
-            doubts.store_slice(&mut samples.doubts[places.clone()]);
-            nearest.store_slice(&mut samples.balls[places.clone()]);
-            is_nearer
-                .select(key, known)
-                .store_slice(&mut samples.keys[places]);
+            doubts.write(&mut samples.doubts, place);
+            nearest.write(&mut samples.balls, place);
+            is_nearer.select(key, known).write(&mut samples.keys, place);
         }
     }
 }

@@ -8,13 +8,11 @@
 //! Neighbors that see different balls are taken to differ at least by a part of the contrast, whatever their light:
 //! a third ball or a shadow may lie between them.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8, mask32x8};
+use fearless_simd::{Level, Simd, dispatch};
 
-use super::depth::read;
 use super::samples::{NONE, Samples};
 use crate::model::color::Color;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f32x8, mask32x8};
 use crate::picture::image::Channels;
 use crate::picture::tile::Tile;
 
@@ -68,32 +66,21 @@ struct Sums {
 }
 
 /// The pixels of a tile, row by row.
-#[inline(always)]
-pub(super) fn pixels<S: Simd>(
-    simd: S,
-    samples: &Samples,
-    weights: &Weights,
-) -> [Judged; SIDE * SIDE] {
+pub(super) fn pixels(level: Level, samples: &Samples, weights: &Weights) -> [Judged; SIDE * SIDE] {
     let mut judged = [Judged {
         value: Color::ZERO,
         alpha: 0.0,
         error: 0.0,
     }; SIDE * SIDE];
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            for (row, pixels) in judged.chunks_exact_mut(SIDE).enumerate() {
-                of_row(simd, samples, weights, (row, pixels));
-            }
-        },
-    );
+    for (row, pixels) in judged.chunks_exact_mut(SIDE).enumerate() {
+        of_row(level, samples, weights, (row, pixels));
+    }
     judged
 }
 
 /// The same of a row of pixels.
-#[inline(always)]
-fn of_row<S: Simd>(
-    simd: S,
+fn of_row(
+    level: Level,
     samples: &Samples,
     weights: &Weights,
     (row, pixels): (usize, &mut [Judged]),
@@ -114,7 +101,7 @@ fn of_row<S: Simd>(
     // Ways from one column to the next.
     let mut sums = Sums::new(samples);
     for row in rows.clone() {
-        sums.add(simd, (samples, weights), row * stride, 1);
+        sums.add(level, (samples, weights), row * stride, 1);
     }
     for pixel in 0..SIDE {
         for number in 0..=side {
@@ -127,7 +114,7 @@ fn of_row<S: Simd>(
     for number in 0..=side {
         sums.clear();
         sums.add(
-            simd,
+            level,
             (samples, weights),
             (first + number - 1) * stride,
             stride,
@@ -191,8 +178,12 @@ impl Sums {
     }
 
     /// Adds the ways from each sample of a row, from this place on, to the one so many places behind.
+    fn add(&mut self, level: Level, of: (&Samples, &Weights), first: usize, step: usize) {
+        dispatch!(level, simd => self.add_lanes(simd, of, first, step));
+    }
+
     #[inline(always)]
-    fn add<S: Simd>(
+    fn add_lanes<S: Simd>(
         &mut self,
         simd: S,
         (samples, weights): (&Samples, &Weights),
@@ -206,7 +197,6 @@ impl Sums {
         let of_passing = (OF_PASSING * (weights.side as f64).sqrt()) as f32;
         for column in (0..samples.stride - LANES).step_by(LANES) {
             let place = first + column;
-            let places = column..column + LANES;
             let mut most = zero;
             let mut brightest = zero;
             for (layer, light) in samples.light.iter().enumerate() {
@@ -219,8 +209,7 @@ impl Sums {
                     (&mut self.falls, change.min(zero)),
                 ];
                 for (sums, change) in sums {
-                    let sums = &mut sums[layer][places.clone()];
-                    (f32x8::from_slice(simd, sums) + change).store_slice(sums);
+                    add(simd, &mut sums[layer], (column, change));
                 }
             }
             let balls = two(simd, &samples.balls, (place, step));
@@ -235,11 +224,9 @@ impl Sums {
             let on_ball = is_between.select(kept, zero);
             let at_edge = same.select(zero, (kept + brightest).max(background));
             let passing = (on_ball + at_edge) * of_passing;
-            let edges = &mut self.edges[places.clone()];
-            (f32x8::from_slice(simd, edges) + at_edge).store_slice(edges);
+            add(simd, &mut self.edges, (column, at_edge));
             let square = most * most + same.select(zero, of_spheres) + passing * passing;
-            let pairs = &mut self.pairs[places];
-            (f32x8::from_slice(simd, pairs) + square).store_slice(pairs);
+            add(simd, &mut self.pairs, (column, square));
         }
     }
 
@@ -263,7 +250,13 @@ impl Sums {
 #[inline(always)]
 fn two<S: Simd>(simd: S, numbers: &[f32], (place, step): (usize, usize)) -> [f32x8<S>; 2] {
     [
-        read(simd, numbers, place),
-        read(simd, numbers, place + step),
+        f32x8::read(simd, numbers, place),
+        f32x8::read(simd, numbers, place + step),
     ]
+}
+
+/// Adds eight numbers to those from a place on.
+#[inline(always)]
+fn add<S: Simd>(simd: S, sums: &mut [f32], (place, more): (usize, f32x8<S>)) {
+    (f32x8::read(simd, sums, place) + more).write(sums, place);
 }

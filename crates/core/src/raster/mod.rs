@@ -165,9 +165,7 @@ impl<'scene> Raster<'scene> {
             });
         }
         self.fill_background(samples);
-        let mut pixels = dispatch!(self.level, simd => {
-            judge::pixels(simd, samples, &self.weights(side))
-        });
+        let mut pixels = judge::pixels(self.level, samples, &self.weights(side));
         for pixel in &mut pixels {
             pixel.value *= self.unit;
             pixel.error = (pixel.error + ROUNDING * self.contrast) * self.unit;

@@ -1,7 +1,6 @@
 //! The light of what samples see.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8, mask32x8};
+use fearless_simd::Simd;
 
 use super::Raster;
 use super::ball::RasterBall;
@@ -9,7 +8,7 @@ use super::depth::{At, Row};
 use super::occluders::Occluders;
 use super::plane::Plane;
 use super::samples::{NONE, Samples};
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f32x8, mask32x8};
 
 impl Raster<'_> {
     /// Computes the light of all samples that see a ball.
@@ -31,8 +30,7 @@ impl Raster<'_> {
                     let of_row = Row::new(simd, plane, ball, row);
                     for column in (first..ball.columns.1 as usize).step_by(LANES) {
                         let place = row * samples.stride + column;
-                        let places = place..place + LANES;
-                        let seen = f32x8::from_slice(simd, &samples.balls[places]);
+                        let seen = f32x8::read(simd, &samples.balls, place);
                         let seen = seen.simd_eq(number);
                         if seen.any_true() {
                             let at = of_row.at(simd, plane, column);
@@ -62,7 +60,7 @@ impl Raster<'_> {
     ) {
         let zero = f32x8::splat(simd, 0.0);
         let root = at.discriminant.max(zero).sqrt();
-        let forward = (at.x * at.right + row.y * row.up + root) / (zero - at.square);
+        let forward = zero - (at.x * at.right + row.y * row.up + root) * at.square.reciprocal();
         let normal = [at.right + forward * at.x, row.up + forward * row.y, forward];
         let channels = self.channels.count();
         let mut light = [zero; 3];
@@ -105,27 +103,16 @@ impl Raster<'_> {
                 *light = lit.select(*light + more, *light);
             }
         }
-        let places = place..place + LANES;
         for (channel, light) in light[..channels].iter().enumerate() {
             let light = *light * ball.albedo[channel] as f32;
-            write(
-                simd,
-                seen,
-                light,
-                &mut samples.light[channel][places.clone()],
-            );
+            write(simd, seen, light, (&mut samples.light[channel], place));
         }
         if self.has_alpha {
             let one = f32x8::splat(simd, 1.0);
-            write(
-                simd,
-                seen,
-                one,
-                &mut samples.light[channels][places.clone()],
-            );
+            write(simd, seen, one, (&mut samples.light[channels], place));
         }
-        write(simd, seen, kept, &mut samples.kept[places.clone()]);
-        write(simd, seen, names, &mut samples.occluders[places]);
+        write(simd, seen, kept, (&mut samples.kept, place));
+        write(simd, seen, names, (&mut samples.occluders, place));
     }
 
     /// Gives the light of the background to all samples that see no ball.
@@ -150,7 +137,12 @@ fn dot<S: Simd>(vectors: [f32x8<S>; 3], other: [f32; 3]) -> f32x8<S> {
 
 /// Writes numbers where a mask holds.
 #[inline(always)]
-fn write<S: Simd>(simd: S, mask: mask32x8<S>, numbers: f32x8<S>, places: &mut [f32]) {
-    let known = f32x8::from_slice(simd, places);
-    mask.select(numbers, known).store_slice(places);
+fn write<S: Simd>(
+    simd: S,
+    mask: mask32x8<S>,
+    numbers: f32x8<S>,
+    (known, place): (&mut [f32], usize),
+) {
+    let before = f32x8::read(simd, known, place);
+    mask.select(numbers, before).write(known, place);
 }

@@ -1,10 +1,9 @@
 //! Spheres as a light sees them, eight side by side, sorted into squares across the light.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8};
+use fearless_simd::Simd;
 use glam::DVec2;
 
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f32x8};
 
 /// A sphere as the light sees it.
 #[derive(Clone, Copy, Debug)]
@@ -219,10 +218,10 @@ impl DiscGrid {
                 let part = (row * self.parts + column) as usize;
                 let groups = self.starts[part] as usize..self.starts[part + 1] as usize;
                 for group in &self.groups[groups] {
-                    let aside = f32x8::simd_from(simd, group.x) - x;
-                    let above = f32x8::simd_from(simd, group.y) - y;
-                    let reach = (f32x8::simd_from(simd, group.radius) + reach) * WIDER;
-                    let top = f32x8::simd_from(simd, group.top);
+                    let aside = f32x8::from_array(simd, group.x) - x;
+                    let above = f32x8::from_array(simd, group.y) - y;
+                    let reach = (f32x8::from_array(simd, group.radius) + reach) * WIDER;
+                    let top = f32x8::from_array(simd, group.top);
                     let distance_sq = aside * aside + above * above;
                     let is_clear = distance_sq.simd_gt(reach * reach) | top.simd_lt(lowest);
                     let mut left = !(is_clear.to_bitmask() as u8);
@@ -284,11 +283,11 @@ impl DiscGrid {
         let (highest, narrower) = (up(height + narrower), up(narrower));
         let around = up(around);
         for group in &self.groups[first as usize..end as usize] {
-            let x = f32x8::simd_from(simd, group.x) - x;
-            let y = f32x8::simd_from(simd, group.y) - y;
-            let radius = f32x8::simd_from(simd, group.radius);
+            let x = f32x8::from_array(simd, group.x) - x;
+            let y = f32x8::from_array(simd, group.y) - y;
+            let radius = f32x8::from_array(simd, group.radius);
             let reach = (radius + around) * WIDER;
-            let top = f32x8::simd_from(simd, group.top);
+            let top = f32x8::from_array(simd, group.top);
             let distance_sq = x * x + y * y;
             let is_clear = distance_sq.simd_gt(reach * reach) | top.simd_lt(lowest);
             let mut left = !(is_clear.to_bitmask() as u8);

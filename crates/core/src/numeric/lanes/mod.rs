@@ -13,6 +13,7 @@
 mod leaf;
 mod doubles;
 mod masks;
+mod singles;
 
 use std::ops::{Add, Mul, Sub};
 
@@ -20,6 +21,7 @@ use fearless_simd::{Simd, SimdFloat};
 
 pub(crate) use self::doubles::{LANE_NUMBERS, LANES, f64x8};
 pub(crate) use self::masks::mask64x8;
+pub(crate) use self::singles::{f32x8, mask32x8};
 
 /// Bits of the mantissa that a double stores.
 const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
