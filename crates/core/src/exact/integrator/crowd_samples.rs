@@ -168,8 +168,7 @@ const POWER: f64 = 1.4;
 /// The standard errors that are claimed, with so many samples on a side of a pixel.
 ///
 /// # Accuracy
-/// Of 800,000 pixels of crowds none was off by more than 7.1 standard errors with 4 samples on a side, 4.4 with 8
-/// and 5.1 with more.
+/// An estimate: see [`Judged`]. Of 800,000 pixels of six crowds, none was off by more than .77 of this.
 fn deviations(side: u32) -> f64 {
     match side {
         ..6 => 8.0,
