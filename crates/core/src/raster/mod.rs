@@ -72,7 +72,7 @@ pub(crate) struct Raster<'scene> {
     level: Level,
 }
 
-/// Memory to work in, for one world and its lights.
+/// Memory to work in, for one world under any lights.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     balls: Vec<RasterBall>,

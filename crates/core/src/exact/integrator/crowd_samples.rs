@@ -180,8 +180,7 @@ fn deviations(side: u32) -> f64 {
 /// The pixels of a tile that samples answer for, for one integrator after the other.
 #[derive(Debug, Default)]
 pub(super) struct OfCrowds {
-    /// One for each integrator: its memory knows nothing of lights.
-    rasters: Vec<raster::Scratch>,
+    raster: raster::Scratch,
     /// In the order of [`Tile::pixels`], or none.
     pixels: Vec<Vec<Option<Pixel>>>,
 }
@@ -194,15 +193,11 @@ impl OfCrowds {
         tile: Tile,
     ) -> Work {
         let mut work = Work::default();
-        let count = crowds.len();
-        self.pixels.resize(count, Vec::new());
-        self.rasters
-            .resize_with(count.max(self.rasters.len()), Default::default);
-        let memory = self.rasters.iter_mut().zip(&mut self.pixels);
-        for (crowd, (raster, pixels)) in crowds.zip(memory) {
+        self.pixels.resize(crowds.len(), Vec::new());
+        for (crowd, pixels) in crowds.zip(&mut self.pixels) {
             pixels.clear();
             if let Some(crowd) = crowd {
-                work.samples += crowd.pixels(tile, raster, pixels);
+                work.samples += crowd.pixels(tile, &mut self.raster, pixels);
             }
         }
         work
