@@ -28,6 +28,40 @@ fn place(line: &str) -> (u32, u32) {
     (after("column"), after("row"))
 }
 
+/// Colored scenes without lights, of which pixels had larger errors than they claimed at these tolerances: slivers between
+/// balls of one color, and balls that are taken to fill a box that they do not.
+const SLIVERS: [&str; 4] = [
+    "sliver_between_balls_of_one_color",
+    "tip_in_a_sliver",
+    "sphere_that_seems_to_fill_a_box",
+    "seam_beside_a_sphere_that_seems_to_fill_a_box",
+];
+const TOLERANCES_OF_SLIVERS: [f64; 4] = [1e-2, 1e-3, 3e-4, 1e-4];
+
+#[test]
+fn slivers_are_off_by_no_more_than_they_claim() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/found");
+    for name in SLIVERS {
+        let path = folder.join(name).with_extension("ron");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let (col, row) = place(text.lines().next().unwrap_or_default());
+        let scene = Scene::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"));
+        let view = scene.view(1).unwrap();
+        let world = scene.world();
+        let truth = Reference::new(world, &view).pixel(col, row);
+        let exact = truth.value.truncate() + world.background * (1.0 - truth.value.w);
+        let view = single_pixel(&view, col, row);
+        for tolerance in TOLERANCES_OF_SLIVERS {
+            let image = exact_picture(world, &view, tolerance, false);
+            let claimed = image.error(0, 0);
+            for (channel, value) in exact.to_array().into_iter().enumerate() {
+                let off = (image.rgba(0, 0)[channel] - value).abs() - truth.error;
+                assert!(off <= claimed, "{name} {tolerance:e}: {off:e} {claimed:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn found_pixels_are_within_their_tolerance_or_say_so() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/found");
@@ -57,5 +91,5 @@ fn found_pixels_are_within_their_tolerance_or_say_so() {
         }
         count += 1;
     }
-    assert!(count >= 48, "{count}");
+    assert!(count >= 52, "{count}");
 }

@@ -51,7 +51,7 @@ pub(crate) struct EdgedPixel<'a, 'scene> {
 
 /// The least claim of boxes, as a share of the contrast: one pixel in some ten thousand was off by so much that claimed
 /// less.
-const LEAST_OF_BOXES: f64 = 5e-5;
+const LEAST_OF_BOXES: f64 = 6e-5;
 
 /// Into how many parts pieces of curves are cut before events are looked for on them, in the whole
 /// pixel and in parts of it: into more where something does not fit.

@@ -26,7 +26,7 @@ pub(super) struct StoredHalfPlane {
     across: [Eight; 2],
     share: Eight,
     moments: [Eight; 2],
-    doubt: Eight,
+    pub(super) doubt: Eight,
 }
 
 impl StoredHalfPlane {
@@ -201,6 +201,28 @@ impl<S: Simd> HalfPlane<S> {
             share: one - self.share,
             moments: [-self.moments[0], -self.moments[1]],
             doubt: self.doubt,
+        }
+    }
+
+    /// How far the line may be off along its larger change, in sides, to be in doubt as it is.
+    #[inline(always)]
+    pub(super) fn bend(&self, simd: S) -> f64x8<S> {
+        let zero = f64x8::splat(simd, 0.0);
+        let small = self.across[0].abs().min(self.across[1].abs());
+        let rest = (small * 0.5 + 0.5 - self.value.abs()).max(zero);
+        // The doubt is ON_AVERAGE · bend, times (rest + bend) / small where the line cuts off a corner.
+        let whole = self.doubt * (1.0 / ON_AVERAGE);
+        let corner = ((rest * rest + whole * small * 4.0).sqrt() - rest) * 0.5;
+        whole.max(corner)
+    }
+
+    /// The line moved outward by this, in sides, or a little more; its share and moments are left as they are.
+    #[inline(always)]
+    pub(super) fn grown(&self, outward: f64x8<S>) -> Self {
+        let [x, y] = self.across;
+        Self {
+            value: self.value + outward * (x.abs() + y.abs()),
+            ..*self
         }
     }
 

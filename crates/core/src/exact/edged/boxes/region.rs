@@ -101,9 +101,11 @@ impl<S: Simd> Region<S> {
         // Where one line cuts a box, the other side is a half-plane, too.
         let is_filled = one.share.simd_gt(0.5) & !is_cut;
         let is_filled_too = other.share.simd_gt(0.5) & !is_cut_too;
-        let part = whole
+        let mut part = whole
             .or(is_filled_too, &one.other_side(simd))
             .or(is_filled, &other.other_side(simd));
+        // One that seems to fill a box may not.
+        part.doubt = one.doubt + other.doubt;
         self.cut(simd, &part);
         let is_cut_twice = is_cut & is_cut_too;
         if is_cut_twice.to_bitmask() != 0 {
@@ -133,12 +135,6 @@ impl<S: Simd> Region<S> {
     fn has_both(&self) -> mask64x8<S> {
         let [first, second] = self.ambiguities;
         first.min(second).simd_gt(0.0)
-    }
-
-    /// Its share, as if no half-plane depended on another.
-    #[inline(always)]
-    pub(super) fn product(&self) -> f64x8<S> {
-        self.first.share * self.second.share * self.rest
     }
 
     /// Its share of the boxes.
