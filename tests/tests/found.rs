@@ -3,9 +3,9 @@
 //! `cargo truth hunt --write` wrote the scenes of `tests/truth/found`. Their first lines name the pixels, and their
 //! errors at that time.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use marbles_core::Status;
+use marbles_core::{Status, View};
 use marbles_scene::Scene;
 use marbles_tests::reference::Reference;
 
@@ -38,24 +38,53 @@ const SLIVERS: [&str; 4] = [
 ];
 const TOLERANCES_OF_SLIVERS: [f64; 4] = [1e-2, 1e-3, 3e-4, 1e-4];
 
-#[test]
-fn slivers_are_off_by_no_more_than_they_claim() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/found");
-    for name in SLIVERS {
-        let path = folder.join(name).with_extension("ron");
-        let text = std::fs::read_to_string(&path).unwrap();
+/// A scene, the view of the pixel that its first line names, and the exact light of that pixel with its error.
+struct Found {
+    scene: Scene,
+    view: View,
+    exact: [f64; 3],
+    error: f64,
+}
+
+impl Found {
+    fn load(path: &Path) -> Self {
+        let text = std::fs::read_to_string(path).unwrap();
         let (col, row) = place(text.lines().next().unwrap_or_default());
-        let scene = Scene::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"));
+        let scene = Scene::parse(&text, path).unwrap_or_else(|error| panic!("{error}"));
         let view = scene.view(1).unwrap();
         let world = scene.world();
         let truth = Reference::new(world, &view).pixel(col, row);
         let exact = truth.value.truncate() + world.background * (1.0 - truth.value.w);
-        let view = single_pixel(&view, col, row);
+        Self {
+            view: single_pixel(&view, col, row),
+            exact: exact.to_array(),
+            error: truth.error,
+            scene,
+        }
+    }
+
+    /// The pixel at a tolerance: how far each channel is off at least, the claim, and whether it says that it is met.
+    fn render(&self, tolerance: f64) -> ([f64; 3], f64, bool) {
+        let image = exact_picture(self.scene.world(), &self.view, tolerance, false);
+        let rgba = image.rgba(0, 0);
+        let off =
+            std::array::from_fn(|channel| (rgba[channel] - self.exact[channel]).abs() - self.error);
+        let is_met = image.status(0, 0) == Status::Met;
+        (off, image.error(0, 0), is_met)
+    }
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/found")
+}
+
+#[test]
+fn slivers_are_off_by_no_more_than_they_claim() {
+    for name in SLIVERS {
+        let found = Found::load(&folder().join(name).with_extension("ron"));
         for tolerance in TOLERANCES_OF_SLIVERS {
-            let image = exact_picture(world, &view, tolerance, false);
-            let claimed = image.error(0, 0);
-            for (channel, value) in exact.to_array().into_iter().enumerate() {
-                let off = (image.rgba(0, 0)[channel] - value).abs() - truth.error;
+            let (channels, claimed, _) = found.render(tolerance);
+            for off in channels {
                 assert!(off <= claimed, "{name} {tolerance:e}: {off:e} {claimed:e}");
             }
         }
@@ -64,29 +93,19 @@ fn slivers_are_off_by_no_more_than_they_claim() {
 
 #[test]
 fn found_pixels_are_within_their_tolerance_or_say_so() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/found");
     let mut count = 0;
-    for file in std::fs::read_dir(folder).unwrap() {
+    for file in std::fs::read_dir(folder()).unwrap() {
         let path = file.unwrap().path();
-        let text = std::fs::read_to_string(&path).unwrap();
-        let (col, row) = place(text.lines().next().unwrap_or_default());
-        let scene = Scene::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"));
-        let view = scene.view(1).unwrap();
-        let world = scene.world();
-        let truth = Reference::new(world, &view).pixel(col, row);
-        let exact = truth.value.truncate() + world.background * (1.0 - truth.value.w);
-        let view = single_pixel(&view, col, row);
+        let found = Found::load(&path);
         for tolerance in TOLERANCES {
-            let image = exact_picture(world, &view, tolerance, false);
-            let claimed = image.error(0, 0);
-            let is_met = image.status(0, 0) == Status::Met;
+            let (channels, claimed, is_met) = found.render(tolerance);
             let most = if is_met { tolerance } else { claimed };
-            let rgba = image.rgba(0, 0);
-            for (channel, value) in exact.to_array().into_iter().enumerate() {
-                let off = (rgba[channel] - value).abs() - truth.error;
-                assert!(off <= most, "{path:?} {tolerance:e}: {off:e} {claimed:e}");
-                let most = (FALSE * claimed).max(FALSE_OF_TOLERANCE * tolerance);
-                assert!(off <= most, "{path:?} {tolerance:e}: {off:e} {claimed:e}");
+            let not_false = (FALSE * claimed).max(FALSE_OF_TOLERANCE * tolerance);
+            for off in channels {
+                assert!(
+                    off <= most && off <= not_false,
+                    "{path:?} {tolerance:e}: {off:e} {claimed:e}"
+                );
             }
         }
         count += 1;

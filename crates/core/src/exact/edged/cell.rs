@@ -49,8 +49,8 @@ pub(crate) struct EdgedPixel<'a, 'scene> {
     pub(crate) spheres: &'a [(usize, Ball)],
 }
 
-/// The least claim of boxes, as a share of the contrast: one pixel in some ten thousand was off by so much that claimed
-/// less.
+/// The least claim of boxes, as a share of the contrast: one pixel in some ten thousand was off by nearly so much that
+/// claimed less.
 const LEAST_OF_BOXES: f64 = 6e-5;
 
 /// Into how many parts pieces of curves are cut before events are looked for on them, in the whole

@@ -60,9 +60,9 @@ impl<S: Simd> Visible<S> {
     }
 }
 
-/// The factor on the doubt of an edge behind which another ends: two things lie behind it, each on a part of its way. A
-/// parabola and its line leave areas on half of the way that differ by 0.13 heights, of which the doubt is 0.08; what is
-/// more is caution.
+/// The factor on the doubt of an edge behind which another ends, and of a seam that ends: two things lie behind it, each
+/// on a part of its way. A parabola and its line leave areas on half of the way that differ by 0.13 heights, of which the
+/// doubt is 0.08; what is more is caution.
 const OF_ENDS: f64 = 2.4;
 
 /// The share of a depth from an edge at which a root of it is its average: (2/3)², over a half.
@@ -251,8 +251,8 @@ impl Contour {
 /// nearly hidden.
 ///
 /// The line leaves the area that the curve does, on the whole way through a box. On a part of the way they may be apart
-/// more than that: at an end of the way by two thirds of the curve's height, of which the line's doubt is a twelfth. So the
-/// curve may also run where the line only comes near.
+/// more than that: at an end of the way by two thirds of the curve's height, which are eight times what the line is taken to
+/// be off. So the curve may also run where the line only comes near. Both constants have some caution.
 #[inline(always)]
 fn open_edge<S: Simd>(simd: S, inside: &HalfPlane<S>, outside: &HalfPlane<S>) -> f64x8<S> {
     const OF_END: f64 = 16.0;

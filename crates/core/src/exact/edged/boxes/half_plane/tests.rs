@@ -60,3 +60,26 @@ fn a_function_that_bends_is_in_doubt_where_it_may_vanish() {
     assert!((doubt(0.3, 0.03) - 0.02).abs() < 1e-6);
     assert_eq!(doubt(0.0, 1e3), 1.0);
 }
+
+#[test]
+fn a_line_in_doubt_is_off_by_what_made_it_doubtful() {
+    let across_corners = [
+        (0.3, [1.0, 0.0]),
+        (0.75, [1.0, 0.6]),
+        (-0.9, [-1.0, 1.0]),
+        (0.0, [0.5, -1.0]),
+    ];
+    for (value, across) in across_corners {
+        for bend in [1e-4, 1e-2, 0.05] {
+            let found = dispatch!(Level::new(), simd => {
+                let splat = |number| f64x8::splat(simd, number);
+                let part = HalfPlane::new(simd, splat(value), across.map(splat), splat(bend));
+                part.bend(simd)[2]
+            });
+            assert!(
+                found > 0.999 * bend && found < 1.6 * bend,
+                "{value} {across:?}: {found} {bend}"
+            );
+        }
+    }
+}
