@@ -39,8 +39,11 @@ pub(super) struct Weights {
     pub(super) channels: Channels,
     /// The light by parts of which samples of different balls differ at least.
     pub(super) of_spheres: f64,
-    /// The brightest channel of the background, in units.
+    /// The brightest channel of the background, in units, and of what the samples of the tile see.
     pub(super) of_background: f64,
+    pub(super) brightest: f32,
+    /// The largest ratio of the albedos of what is seen in the tile.
+    pub(super) of_albedos: f32,
 }
 
 /// The standard error of an edge that crosses the way between two neighbors, in parts of its contrast and of a
@@ -58,6 +61,14 @@ const OF_SPHERES: f64 = 0.3;
 /// the root of the number of samples on a side: a thin strip of light or shadow is as long as an edge, and what it
 /// adds is the same on all of its ways.
 const OF_PASSING: f64 = 0.25;
+
+/// The light below which what is seen does not tell how what is behind is lit, in parts of the brightest.
+const BLACK: f32 = 1e-3;
+
+/// The share of a pixel's corner in a way. A ball that no way along the grid meets reaches past the corner by no more
+/// than s² / 4r, with the distance s of samples and a radius r of at least that: it covers (s² / 4r)², 1/16 of a sample. This
+/// much is claimed for it, and more.
+const OF_CORNER: f64 = 1.0 / 16.0;
 
 const SIDE: usize = Tile::SIDE as usize;
 
@@ -82,6 +93,26 @@ pub(super) fn pixels(level: Level, samples: &Samples, weights: &Weights) -> [Jud
         of_row(level, samples, weights, (row, pixels));
     }
     judged
+}
+
+/// The brightest light that a sample sends, or would send if no ball kept any from it.
+pub(super) fn brightest(level: Level, samples: &Samples) -> f32 {
+    dispatch!(level, simd => brightest_of_lanes(simd, samples))
+}
+
+#[inline(always)]
+fn brightest_of_lanes<S: Simd>(simd: S, samples: &Samples) -> f32 {
+    let mut most = f32x8::splat(simd, 0.0);
+    for place in (0..samples.kept.len()).step_by(LANES) {
+        let mut of_layers = f32x8::splat(simd, 0.0);
+        for light in &samples.light {
+            of_layers = of_layers.max(f32x8::read(simd, light, place));
+        }
+        most = most.max(of_layers + f32x8::read(simd, &samples.kept, place));
+    }
+    let mut lanes = [0.0; LANES];
+    most.write(&mut lanes, 0);
+    lanes.into_iter().fold(0.0, f32::max)
 }
 
 /// The same of a row of pixels.
@@ -132,6 +163,10 @@ fn of_row(
             lines[pixel] += share(number) * sums.lines(columns);
         }
     }
+    for (pixel, pairs) in pairs.iter_mut().enumerate() {
+        let place = first * stride + pixel * side + 1;
+        *pairs += OF_CORNER * of_corners(samples, weights, place);
+    }
     let count = (side * side) as f64;
     for (pixel, judged) in pixels.iter_mut().enumerate() {
         let columns = pixel * side + 1..pixel * side + 1 + side;
@@ -162,6 +197,33 @@ fn of_row(
             },
         };
     }
+}
+
+/// The squares of the differences across the corners of a pixel whose first sample has this place.
+fn of_corners(samples: &Samples, weights: &Weights, place: usize) -> f64 {
+    let (stride, last) = (samples.stride, weights.side - 1);
+    let of_spheres = OF_SPHERES * weights.of_spheres;
+    let ways = [
+        (place, place - stride - 1),
+        (place + last, place + last - stride + 1),
+        (place + last * stride, place + (last + 1) * stride - 1),
+        (
+            place + last * (stride + 1),
+            place + (last + 1) * (stride + 1),
+        ),
+    ];
+    let of_way = |(one, other): (usize, usize)| {
+        let changes = samples.light.iter().map(|light| light[other] - light[one]);
+        let most = f64::from(changes.fold(0.0, |most: f32, change| most.max(change.abs())));
+        let is_same = samples.balls[one] == samples.balls[other];
+        most * most
+            + if is_same {
+                0.0
+            } else {
+                of_spheres * of_spheres
+            }
+    };
+    ways.into_iter().map(of_way).sum()
 }
 
 impl Sums {
@@ -200,11 +262,14 @@ impl Sums {
         let of_spheres = OF_SPHERES * weights.of_spheres;
         let of_spheres = f32x8::splat(simd, (of_spheres * of_spheres) as f32);
         let background = f32x8::splat(simd, weights.of_background as f32);
+        let brightest_strip = f32x8::splat(simd, weights.brightest);
+        // What is black tells nothing of how bright others are.
+        let least = f32x8::splat(simd, BLACK * weights.brightest);
         let of_passing = (OF_PASSING * (weights.side as f64).sqrt()) as f32;
         for column in (0..samples.stride - LANES).step_by(LANES) {
             let place = first + column;
             let mut most = zero;
-            let mut brightest = zero;
+            let mut brightest = least;
             for (layer, light) in samples.light.iter().enumerate() {
                 let [one, other] = two(simd, light, (place, step));
                 let change = other - one;
@@ -224,11 +289,13 @@ impl Sums {
             let same: mask32x8<S> = balls[0].simd_eq(balls[1]);
             let dark = kept[0].simd_gt(zero) & kept[1].simd_gt(zero);
             let kept = kept[0].max(kept[1]);
-            // On a ball light may pass between two others that keep it from both; at its edge there may be a strip
-            // of shadow, too, or of what is behind.
+            // On a ball light may pass between two others that keep it from both; at its edge there may be a strip of
+            // whatever is behind, lit as its neighbors are.
             let is_between = dark & !names[0].simd_eq(names[1]);
             let on_ball = is_between.select(kept, zero);
-            let at_edge = same.select(zero, (kept + brightest).max(background));
+            let alike = kept + brightest;
+            let strip = alike.max((alike * weights.of_albedos).min(brightest_strip));
+            let at_edge = same.select(zero, strip.max(background));
             let passing = (on_ball + at_edge) * of_passing;
             add(simd, &mut self.edges, (column, at_edge));
             let square = most * most + same.select(zero, of_spheres) + passing * passing;

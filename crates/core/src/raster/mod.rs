@@ -165,7 +165,8 @@ impl<'scene> Raster<'scene> {
             });
         }
         self.fill_background(samples);
-        let mut pixels = judge::pixels(self.level, samples, &self.weights(side));
+        let weights = self.weights(side, balls, samples);
+        let mut pixels = judge::pixels(self.level, samples, &weights);
         for pixel in &mut pixels {
             pixel.value *= self.unit;
             pixel.error = (pixel.error + ROUNDING * self.contrast) * self.unit;
@@ -203,13 +204,30 @@ impl<'scene> Raster<'scene> {
         balls.len() >= FEWEST
     }
 
-    fn weights(&self, side: u32) -> judge::Weights {
+    fn weights(&self, side: u32, balls: &[RasterBall], samples: &Samples) -> judge::Weights {
         judge::Weights {
             side: side as usize,
             channels: self.channels,
             of_spheres: self.contrast,
             of_background: self.background.max_element(),
+            brightest: judge::brightest(self.level, samples),
+            of_albedos: ratio_of_albedos(balls, samples),
         }
+    }
+}
+
+/// The ratio of the albedos of the brightest and the darkest ball that samples see; a large one if that is black.
+fn ratio_of_albedos(balls: &[RasterBall], samples: &Samples) -> f32 {
+    let seen = balls.iter().enumerate();
+    let seen = seen.filter(|(number, _)| samples.sees(*number));
+    let albedos = seen.map(|(_, ball)| ball.albedo.max_element());
+    let [darkest, brightest] = albedos.fold([f64::INFINITY, 0.0], |[least, most], albedo| {
+        [least.min(albedo), most.max(albedo)]
+    });
+    if brightest > 0.0 {
+        (brightest / darkest).min(f64::from(f32::MAX)) as f32
+    } else {
+        1.0
     }
 }
 

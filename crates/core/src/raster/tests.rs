@@ -160,6 +160,109 @@ fn errors_are_what_neighbors_tell() {
     assert!((0.05..1.0).contains(&mean), "{mean}");
 }
 
+/// A ball that covers the corner of a pixel and none of the samples beside it, nor those of its neighbors along the grid:
+/// that across the corner alone tells of it.
+#[test]
+fn balls_that_reach_across_a_corner_are_claimed() {
+    let side = 4;
+    let lens = Lens::from_field_of_view(Angle::from_degrees(1.0)).unwrap();
+    let view = View::new(Camera::default(), lens, 16, 16);
+    let mut world = World::new();
+    world.ambient = Color::ONE;
+    let white = world.add_material(Material {
+        albedo: Color::ONE,
+        ..Material::MATTE_WHITE
+    });
+    // The distance of samples, at the balls; their centers lie 0.6 of it from corners, along both axes.
+    let distance = 100.0;
+    let pixel = lens.width / 16.0 * distance;
+    let step = pixel / f64::from(side);
+    for row in (1..16).step_by(2) {
+        for col in (1..16).step_by(2) {
+            let center = DVec3::new(
+                f64::from(col - 8) * pixel - 0.6 * step,
+                f64::from(8 - row) * pixel + 0.6 * step,
+                distance,
+            );
+            world.add_sphere(Sphere::new(center, 1.001 * step).unwrap(), white);
+        }
+    }
+    // The part of a disc of radius 1 where x and y are more than 0.6: a sector less two triangles.
+    let area = 0.5 * (libm::asin(0.8) - libm::asin(0.6)) - 0.6 * 0.2;
+    let area = area / f64::from(side * side);
+    let visibility = Visibility::new(&world);
+    let index = ViewIndex::new(&visibility, &view, RayPoints::All);
+    let raster = Raster::new(&world, &view, &index, false).expect("a crowd");
+    let mut scratch = Scratch::default();
+    let mut seen = 0;
+    for tile in tiles(&view) {
+        let Some(found) = raster.pixels(tile, side, &mut scratch) else {
+            continue;
+        };
+        for (place, (col, row)) in inside(tile, &view) {
+            if col % 2 == 1 && row % 2 == 1 {
+                assert_eq!(found[place].value, Color::ZERO);
+                let claimed = 6.0 * found[place].error;
+                assert!(claimed > area, "{claimed:e} of {area:e}");
+                seen += 1;
+            }
+        }
+    }
+    assert_eq!(seen, 64);
+}
+
+/// Black balls that touch, row above row, before white ones: between two rows of samples, which see black, the white
+/// shows on both sides of where they touch.
+#[test]
+fn strips_of_what_is_brighter_are_claimed() {
+    let side = 6;
+    let lens = Lens::from_field_of_view(Angle::from_degrees(1.0)).unwrap();
+    let view = View::new(Camera::default(), lens, 32, 32);
+    let mut world = World::new();
+    world.ambient = Color::ONE;
+    let [black, white] = [0.02, 0.9].map(|albedo| {
+        world.add_material(Material {
+            albedo: Color::splat(albedo),
+            ..Material::MATTE_WHITE
+        })
+    });
+    let pixel = lens.width / 32.0 * 1000.0;
+    let radius = 2.3;
+    let mut add = |x: f64, y: f64, behind: f64, radius: f64, material| {
+        let center = DVec3::new(x - 16.0, 16.0 - y, 0.0) * pixel + DVec3::Z * (1000.0 + behind);
+        world.add_sphere(Sphere::new(center, radius * pixel).unwrap(), material);
+    };
+    for col in 0..7 {
+        for row in 0..8 {
+            let (x, y) = (5.0 * f64::from(col) + 0.5, 2.0 * radius * f64::from(row));
+            add(x, y - 0.1 * f64::from(col), 0.0, radius, black);
+        }
+    }
+    for col in 0..12 {
+        for row in 0..12 {
+            add(3.0 * f64::from(col), 3.0 * f64::from(row), 10.0, 5.0, white);
+        }
+    }
+    let visibility = Visibility::new(&world);
+    let index = ViewIndex::new(&visibility, &view, RayPoints::All);
+    let raster = Raster::new(&world, &view, &index, false).expect("a crowd");
+    let fine = NonZeroU32::new(64).unwrap();
+    let samples = Supersampling::new(&world, &view, &index, fine, false);
+    let (mut scratch, mut most, mut dark) = (Scratch::default(), 0.0_f64, 0);
+    for tile in tiles(&view) {
+        let found = raster.pixels(tile, side, &mut scratch).expect("a crowd");
+        let expected = sampled(&samples, tile, &view);
+        for ((place, _), expected) in inside(tile, &view).zip(expected) {
+            let found = &found[place];
+            let off = (found.value - expected.value).abs().max_element();
+            most = most.max((off - 0.1 * expected.error).max(0.0) / found.error);
+            dark += u32::from(found.value.x < 0.021 && off > 0.01);
+        }
+    }
+    assert!(dark >= 4, "{dark} strips");
+    assert!(most < 7.0, "{most}");
+}
+
 /// All of a picture, to the bit.
 fn bits(raster: &Raster<'_>, view: &View) -> Vec<Option<Vec<[u64; 3]>>> {
     let mut scratch = Scratch::default();
