@@ -119,7 +119,7 @@ fn pixels_keep_their_tolerance() {
         ] {
             let world = balls(width);
             let reference = Reference::new(&world, &view);
-            for tolerance in [1e-2, 1e-6] {
+            for tolerance in [1e-2, 1e-3, 1e-6] {
                 let image = exact_picture(&world, &view, tolerance, false);
                 let mut edges = 0;
                 for (col, row) in pixels(&image) {

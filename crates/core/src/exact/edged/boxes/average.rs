@@ -8,10 +8,13 @@ use super::half_vectors::Views;
 use super::lights::Lit;
 use super::normals::Normals;
 use super::orders::Orders;
+use super::outlines::Line;
 use super::region::{OF_AMBIGUITY, Region, Share};
+use super::sum::Sum;
 use super::surroundings::Surroundings;
 use crate::edges::cell::Cell;
 use crate::exact::classify::contents::Contents;
+use crate::exact::classify::face::Face;
 use crate::exact::classify::reach::Reach;
 use crate::exact::part::Part;
 use crate::exact::scene::InCamera;
@@ -19,6 +22,7 @@ use crate::exact::surface::Finish;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::lanes::{f64x8, mask64x8};
+use crate::numeric::polynomial::Quadratic;
 
 /// The data that the boxes of a cell have in common.
 #[derive(Clone, Copy, Debug)]
@@ -67,107 +71,6 @@ impl Averages {
             error: self.error[lane],
             rounding: 0.0,
         }
-    }
-}
-
-/// The light seen in boxes, summed up sphere by sphere.
-#[derive(Clone, Copy, Debug)]
-struct Sum<S: Simd> {
-    channels: usize,
-    value: [f64x8<S>; 3],
-    /// The shares of boxes that spheres were seen in.
-    seen: f64x8<S>,
-    error: f64x8<S>,
-    /// The least and the most light that parts of boxes send.
-    least: [f64x8<S>; 3],
-    most: [f64x8<S>; 3],
-    /// The sum of how much shares may be off because edges depend on each other, and because they are no lines.
-    ambiguity: f64x8<S>,
-    doubt: f64x8<S>,
-    /// The boxes in which a sphere may be seen, and the points whose light was summed up.
-    is_covered: mask64x8<S>,
-    samples: u64,
-}
-
-impl<S: Simd> Sum<S> {
-    #[inline(always)]
-    fn nothing(simd: S, channels: usize) -> Self {
-        let zero = f64x8::splat(simd, 0.0);
-        let infinity = f64x8::splat(simd, f64::INFINITY);
-        Self {
-            channels,
-            value: [zero; 3],
-            seen: zero,
-            error: zero,
-            least: [infinity; 3],
-            most: [-infinity; 3],
-            ambiguity: zero,
-            doubt: zero,
-            is_covered: mask64x8::splat(simd, false),
-            samples: 0,
-        }
-    }
-
-    /// Adds what is seen of a sphere.
-    #[inline(always)]
-    fn add(&mut self, visible: &Visible<S>, light: &Lit<S>) {
-        self.samples += light.samples;
-        self.is_covered |= visible.is_possible;
-        self.error += light.error;
-        self.seen += visible.share.area;
-        self.doubt += visible.doubt;
-        self.ambiguity += visible.share.ambiguity;
-        for (value, of_light) in self.value.iter_mut().zip(&light.value).take(self.channels) {
-            *value += *of_light;
-        }
-        self.add_range(light, visible.is_possible);
-    }
-
-    /// Makes what is seen fill these shares of boxes: of three spheres that meet in a box the products of shares do not.
-    #[inline(always)]
-    fn fill(&mut self, simd: S, covered: f64x8<S>) {
-        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let scale = covered / self.seen.max(tiny);
-        let is_seen = self.seen.simd_gt(0.0);
-        for value in self.value.iter_mut().take(self.channels) {
-            *value = is_seen.select(*value * scale, *value);
-        }
-    }
-
-    /// The same for the shares of single spheres; what they are changed by counts as their error.
-    #[inline(always)]
-    fn fill_areas(&self, simd: S, left: &Share<S>, found: &mut [[Eight; 2]]) {
-        let covered = f64x8::splat(simd, 1.0) - left.area;
-        let scale = covered / self.seen.max(f64x8::splat(simd, f64::MIN_POSITIVE));
-        for [share, error] in found {
-            let known = f64x8::from_array(simd, *share);
-            let scaled = known * scale;
-            let error_of = f64x8::from_array(simd, *error);
-            *error = error_of.max((scaled - known).abs()).into();
-            *share = scaled.into();
-        }
-    }
-
-    /// Adds a range of light where it is seen.
-    #[inline(always)]
-    fn add_range(&mut self, light: &Lit<S>, is_seen: mask64x8<S>) {
-        for channel in 0..self.channels {
-            let [least, most] = light.range[channel];
-            let low = self.least[channel];
-            self.least[channel] = is_seen.select(low.min(least), low);
-            let high = self.most[channel];
-            self.most[channel] = is_seen.select(high.max(most), high);
-        }
-    }
-
-    /// The largest contrast of a channel.
-    #[inline(always)]
-    fn contrast(&self, simd: S) -> f64x8<S> {
-        let mut contrast = f64x8::splat(simd, 0.0);
-        for (most, least) in self.most.iter().zip(&self.least).take(self.channels) {
-            contrast = contrast.max(*most - *least);
-        }
-        contrast
     }
 }
 
@@ -230,16 +133,30 @@ impl Setting<'_, '_> {
                     y: f64x8::from_array(simd, y),
                     size,
                 };
-                let outside = self.contours(simd, &boxes, contours);
+                let has_outlines =
+                    matches!(wanted, Wanted::Light(..)) && self.contents.has_outlines();
+                let outside = self.contours(simd, &boxes, (contours, has_outlines));
                 let mut sum = Sum::nothing(simd, self.scene.channels);
+                let mut whole = f64x8::splat(simd, 0.0);
                 for contour in &contours.spheres {
-                    let Some(visible) = contour.visible(simd, contours, self.orders) else {
+                    let Some(mut visible) = contour.visible(simd, contours, self.orders) else {
+                        whole *= 0.0;
                         continue;
                     };
                     match &mut wanted {
                         Wanted::Light(_, noise) => {
-                            let light = self.light(simd, &boxes, &visible, noise);
+                            let share = visible.share.area;
+                            if let Line::Beside(outlines) = contour.line {
+                                let outlines = u64::from(outlines);
+                                visible.is_possible &= mask64x8::from_bitmask(simd, outlines);
+                            }
+                            let light = self.light(simd, &boxes, (&visible, contour.line), noise);
                             sum.add(&visible, &light);
+                            if contour.line.is_face() {
+                                let color = self.outline_color(visible.position);
+                                sum.take_from_outline(&visible, whole, color);
+                            }
+                            whole = share;
                         }
                         Wanted::Areas(found) => {
                             found[visible.position] = visible.share_and_error();
@@ -257,6 +174,11 @@ impl Setting<'_, '_> {
                 }
             },
         );
+    }
+
+    fn outline_color(&self, position: usize) -> Color {
+        let sphere = self.contents.active[position].sphere;
+        self.scene.outline_color(sphere)
     }
 
     /// The averages of what is seen and of what is left of boxes beside it.
@@ -299,21 +221,41 @@ impl Setting<'_, '_> {
         &self,
         simd: S,
         boxes: &EightBoxes<S>,
-        contours: &mut Contours,
+        (contours, has_outlines): (&mut Contours, bool),
     ) -> Region<S> {
         contours.clear();
         let mut outside = Region::whole(simd);
         for (position, active) in self.contents.active.iter().enumerate() {
             let has_depth = self.orders.needs_depth(position);
-            let of = (position, active);
-            if self.has_silhouette[position] {
-                contours.add(simd, boxes, of, has_depth, &mut outside);
-            } else {
-                outside.darken(simd, f64x8::splat(simd, 1.0).simd_gt(0.0));
-                contours.add_filling(simd, boxes, of, has_depth);
+            let known = contours.spheres.len();
+            let has = (self.has_silhouette[position], has_depth);
+            let mut face = None;
+            loop {
+                let of = (position, active, face);
+                contours.add(simd, boxes, of, has, &mut outside);
+                if face.is_some() || !has_outlines || contours.spheres.len() == known {
+                    break;
+                }
+                face = self.face(position, contours);
+                if face.is_none() {
+                    break;
+                }
             }
         }
         outside
+    }
+
+    /// The contour of the face of the sphere that was added last, if it has an outline beside it.
+    #[inline(always)]
+    fn face(&self, position: usize, contours: &mut Contours) -> Option<&Quadratic> {
+        match self.contents.face(position) {
+            Face::All => None,
+            Face::Nothing => {
+                contours.set_line(Line::All);
+                None
+            }
+            Face::Inside(_, conic) => Some(conic),
+        }
     }
 
     /// The light of a sphere at these places of the boxes.
@@ -322,21 +264,22 @@ impl Setting<'_, '_> {
         &self,
         simd: S,
         boxes: &EightBoxes<S>,
-        visible: &Visible<S>,
+        (visible, line): (&Visible<S>, Line),
         noise: &mut Option<Box<NoiseCells>>,
     ) -> Lit<S> {
         let position = visible.position;
         let scene = self.scene;
         let active = &self.contents.active[position];
         let finish = &self.finishes[position];
-        let mut light = Lit::ambient(
-            simd,
-            finish.reflectance.albedo * scene.ambient,
-            visible.share.area,
-        );
+        let color = if line.is_outline() {
+            self.outline_color(position)
+        } else {
+            finish.reflectance.albedo * scene.ambient
+        };
+        let mut light = Lit::ambient(simd, color, visible.share.area);
         let lights = scene.lights.len();
         let reaches = &self.contents.reach[position * lights..][..lights];
-        if reaches.iter().all(|reach| matches!(reach, Reach::Nowhere)) {
+        if line.is_outline() || reaches.iter().all(|reach| matches!(reach, Reach::Nowhere)) {
             return light;
         }
         let around = Surroundings::new(simd, self.cell, boxes, &active.ball, visible);

@@ -6,16 +6,19 @@ use super::depth::{Depth, Function};
 use super::eight_boxes::{Eight, EightBoxes};
 use super::half_plane::{HalfPlane, StoredHalfPlane};
 use super::orders::{Order, Orders};
+use super::outlines::Line;
 use super::region::{Region, Share};
 use super::wedge::part_beside;
 use crate::exact::classify::active::Active;
 use crate::numeric::lanes::{f64x8, mask64x8};
+use crate::numeric::polynomial::Quadratic;
 
-/// A sphere as eight boxes see it.
+/// A sphere as eight boxes see it, or its face, which is what its outline leaves.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contour {
     /// Its position among the active spheres.
     pub(super) position: usize,
+    pub(super) line: Line,
     /// Whether it fills all boxes.
     fills: bool,
     /// The part inside of its silhouette.
@@ -24,7 +27,7 @@ pub(super) struct Contour {
     /// the discriminant is the average.
     inward: [Eight; 2],
     /// The position of its depth among those that are known, if it intersects another sphere.
-    depth: usize,
+    pub(super) depth: usize,
 }
 
 /// The spheres that eight boxes see.
@@ -74,42 +77,21 @@ impl Contours {
         self.depths.clear();
     }
 
-    /// Adds a sphere that fills all boxes.
-    #[inline(always)]
-    pub(super) fn add_filling<S: Simd>(
-        &mut self,
-        simd: S,
-        boxes: &EightBoxes<S>,
-        (position, active): (usize, &Active),
-        has_depth: bool,
-    ) {
-        let depth = self.depths.len();
-        if has_depth {
-            let function = Function::new(simd, boxes, &active.discriminant);
-            self.depths.push(Depth::new(simd, boxes, active, &function));
-        }
-        self.spheres.push(Contour {
-            position,
-            fills: true,
-            inside: StoredHalfPlane::new(&HalfPlane::whole(simd)),
-            inward: [[0.0; 8]; 2],
-            depth,
-        });
-    }
-
-    /// Adds a sphere if any of the boxes see it, and takes it from what is outside of all of them.
+    /// Adds a sphere if any of the boxes see it, and takes it from what is outside of all of them; or the face of the
+    /// one that was added last, inside of this contour.
     #[inline(always)]
     pub(super) fn add<S: Simd>(
         &mut self,
         simd: S,
         boxes: &EightBoxes<S>,
-        (position, active): (usize, &Active),
-        has_depth: bool,
+        (position, active, face): (usize, &Active, Option<&Quadratic>),
+        (has_silhouette, has_depth): (bool, bool),
         outside: &mut Region<S>,
     ) {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let function = Function::new(simd, boxes, &active.discriminant);
+        let has_edge = has_silhouette || face.is_some();
+        let function = Function::new(simd, boxes, face.unwrap_or(&active.discriminant));
         let Function {
             value,
             across,
@@ -117,36 +99,68 @@ impl Contours {
         } = function;
         // Most boxes of a crowd are far from most silhouettes.
         let most = (across[0].abs() + across[1].abs()) * 0.5 + bends.most();
-        if (value + most).simd_gt(zero).to_bitmask() == 0 {
+        if has_edge && (value + most).simd_gt(zero).to_bitmask() == 0 {
+            if face.is_some() {
+                self.set_line(Line::All);
+            }
             return;
         }
-        if (value - most).simd_lt(zero).to_bitmask() == 0 {
-            outside.darken(simd, one.simd_gt(zero));
-            self.add_filling(simd, boxes, (position, active), has_depth);
+        let fills = !has_edge || (value - most).simd_lt(zero).to_bitmask() == 0;
+        if fills && face.is_some() {
             return;
         }
-        let part = HalfPlane::of_second_degree(simd, value, across, &bends, None);
-        if part.share.simd_gt(zero).to_bitmask() == 0 && part.doubt.simd_gt(zero).to_bitmask() == 0
-        {
-            return;
+        let mut part = HalfPlane::whole(simd);
+        let mut inward = [zero; 2];
+        if !fills {
+            part = HalfPlane::of_second_degree(simd, value, across, &bends, None);
+            let is_cut = part.share.simd_lt(one) & part.share.simd_gt(zero);
+            let by_share = one / part.share.max(f64x8::splat(simd, f64::MIN_POSITIVE));
+            let middle = [part.moments[0] * by_share, part.moments[1] * by_share];
+            let toward = function.toward_mean(middle, OF_ROOT);
+            inward = toward.map(|step| is_cut.select(step, zero));
         }
-        outside.cut(simd, &part.other_side(simd));
-        let is_cut = part.share.simd_lt(one) & part.share.simd_gt(zero);
-        let by_share = one / part.share.max(f64x8::splat(simd, f64::MIN_POSITIVE));
-        let middle = [part.moments[0] * by_share, part.moments[1] * by_share];
-        let [to_x, to_y] = function.toward_mean(middle, OF_ROOT);
-        let inward = [is_cut.select(to_x, zero), is_cut.select(to_y, zero)];
-        let depth = self.depths.len();
-        if has_depth {
-            self.depths.push(Depth::new(simd, boxes, active, &function));
+        let mut depth = self.depths.len();
+        let mut line = Line::None;
+        if face.is_some() {
+            (depth, line) = (self.divide(&part), Line::Face);
+        } else {
+            if fills {
+                outside.darken(simd, one.simd_gt(zero));
+            } else {
+                let may_be = part.share.simd_gt(zero) | part.doubt.simd_gt(zero);
+                if may_be.to_bitmask() == 0 {
+                    return;
+                }
+                outside.cut(simd, &part.other_side(simd));
+            }
+            if has_depth {
+                self.depths.push(Depth::new(simd, boxes, active, &function));
+            }
         }
         self.spheres.push(Contour {
             position,
-            fills: false,
+            line,
+            fills,
             inside: StoredHalfPlane::new(&part),
             inward: [inward[0].into(), inward[1].into()],
             depth,
         });
+    }
+
+    /// Notes what outline the sphere has that was added last.
+    #[inline(always)]
+    pub(super) fn set_line(&mut self, line: Line) {
+        if let Some(sphere) = self.spheres.last_mut() {
+            sphere.line = line;
+        }
+    }
+
+    /// Notes that the sphere that was added last has this face beside its outline; returns the position of its depth.
+    #[inline(always)]
+    fn divide<S: Simd>(&mut self, face: &HalfPlane<S>) -> usize {
+        let fills = face.share.simd_ge(1.0) & face.doubt.simd_le(0.0);
+        self.set_line(Line::Beside(!(fills.to_bitmask() as u8)));
+        self.spheres.last().map_or(0, |sphere| sphere.depth)
     }
 }
 
@@ -170,36 +184,53 @@ impl Contour {
             if other.position == self.position {
                 continue;
             }
-            match orders.of(self.position, other.position) {
-                Order::Front => {
-                    if !other.fills && !self.fills {
-                        by_ends = other.may_cut(simd).select(one * OF_ENDS, by_ends);
-                    }
+            let order = orders.of(self.position, other.position);
+            if order == Order::Front {
+                if !other.fills && !self.fills {
+                    by_ends = other.may_cut(simd).select(one * OF_ENDS, by_ends);
                 }
-                Order::Behind if other.fills => return None,
-                Order::Behind => {
-                    let outside = other.outside(simd);
-                    if !self.fills {
-                        open = open.min(open_edge(simd, &inside, &outside));
-                    }
-                    region.cut(simd, &outside);
-                    if region.most.simd_gt(zero).to_bitmask() == 0 {
-                        return None;
-                    }
-                }
-                Order::ByDepth => {
-                    let theirs = other.inside.load(simd);
-                    let depth = &all.depths[self.depth];
-                    let both = inside.share.min(theirs.share) + inside.doubt + theirs.doubt;
-                    let before = depth.behind(simd, &all.depths[other.depth], both.simd_gt(zero));
-                    // They have at most the smaller share in common: slivers along their silhouettes may be nested. The
-                    // seam ends there, and most of its way may lie in it.
-                    let common = inside.share.min(theirs.share);
-                    let ends = common.simd_lt(one).select(one * OF_ENDS, one);
-                    in_doubt += before.doubt * (common * 2.0).min(one) * ends;
-                    region.cut_by_both(simd, &theirs, &before);
-                }
+                continue;
             }
+            // What hides is the whole sphere.
+            if other.line.is_face() {
+                continue;
+            }
+            let is_behind = order == Order::Behind;
+            if is_behind && other.fills {
+                return None;
+            }
+            let theirs = other.inside.load(simd);
+            let mut left = theirs.other_side(simd);
+            let mut before = None;
+            if is_behind {
+                if !self.fills {
+                    open = open.min(open_edge(simd, &inside, &left));
+                }
+            } else {
+                let depth = &all.depths[self.depth];
+                let both = inside.share.min(theirs.share) + inside.doubt + theirs.doubt;
+                let seam = depth.behind(simd, &all.depths[other.depth], both.simd_gt(zero));
+                // They have at most the smaller share in common: slivers along their silhouettes may be nested. The
+                // seam ends there, and most of its way may lie in it.
+                let common = inside.share.min(theirs.share);
+                let mut ends = common.simd_lt(one).select(one * OF_ENDS, one);
+                if self.line.divides() || other.line.divides() {
+                    ends = one * OF_ENDS;
+                }
+                in_doubt += seam.doubt * (common * 2.0).min(one) * ends;
+                left = theirs.left_by_both(simd, &seam);
+                before = Some(seam);
+            }
+            region.cut(simd, &left);
+            match &before {
+                Some(before) => region.leave_of_both(simd, &theirs, before),
+                None if region.most.simd_gt(zero).to_bitmask() == 0 => return None,
+                None => {}
+            }
+        }
+        if self.line.is_face() {
+            // The whole sphere counts it.
+            in_doubt = zero;
         }
         // Both spheres of a seam are in doubt there: each counts half.
         let doubt = (inside.doubt * open * by_ends + in_doubt * 0.5).min(region.most);
@@ -209,7 +240,7 @@ impl Contour {
         let share = region.share(simd);
         let middle = share.middle(simd);
         let mut inward = [zero; 2];
-        if !self.fills {
+        if !self.fills && !self.line.is_face() {
             // Where others hide what lies deep inside, what is left lies nearer to the silhouette.
             let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
             let [x, y] = inside.across;
@@ -229,21 +260,20 @@ impl Contour {
             middle,
             doubt,
             inward,
-            is_cut: inside.share.simd_lt(one),
+            // The silhouette is at least as far from a face as the outline is wide.
+            is_cut: if self.line.is_face() {
+                zero.simd_lt(zero)
+            } else {
+                inside.share.simd_lt(one)
+            },
             is_possible,
         })
     }
 
-    /// The boxes that its silhouette may cut.
+    /// The boxes that its line may cut.
     #[inline(always)]
     fn may_cut<S: Simd>(&self, simd: S) -> mask64x8<S> {
         f64x8::from_array(simd, self.inside.doubt).simd_gt(0.0)
-    }
-
-    /// The boxes outside of the sphere.
-    #[inline(always)]
-    fn outside<S: Simd>(&self, simd: S) -> HalfPlane<S> {
-        self.inside.load(simd).other_side(simd)
     }
 }
 

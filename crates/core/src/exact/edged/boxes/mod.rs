@@ -8,11 +8,12 @@
 //! The claim is an estimate, the sum over all boxes of: what a third edge in the box may hide or show, times the
 //! contrast there; a share of the area between an edge and its line, more of it where two things of different color lie
 //! behind the edge, each on a part of its way; and what second derivatives do not know of the light. Tips of curves that
-//! barely enter a box may be off by a little more than that: in two million pixels of colored crowds at three or four
-//! tolerances, four were off by 1.05 to 1.22 times their claims, that is by 7e-5 at most. Silhouettes or shadows far
-//! smaller than a box could fool it; but their functions bend by more than their values, so that their boxes claim the
-//! whole contrast. So could bumps between the points; but boxes that are not small beside bumps claim all light that
-//! there may be.
+//! barely enter a box may be off by a little more than that: pixels claim at least what such tips were seen to do.
+//! Silhouettes or shadows far smaller than a box could fool it; but their functions bend by more than their values, so
+//! that their boxes claim the whole contrast. So could bumps between the points; but boxes that are not small beside
+//! bumps claim all light that there may be.
+//!
+//! An outline is what is seen of its sphere and not of a smaller one, whose contour is one more line.
 
 pub(crate) mod areas;
 mod average;
@@ -27,9 +28,11 @@ mod half_vectors;
 mod lights;
 mod normals;
 mod orders;
+mod outlines;
 mod projected;
 mod region;
 mod shadows;
+mod sum;
 mod surroundings;
 mod wedge;
 
@@ -99,7 +102,10 @@ impl Boxes {
         noise: &mut Option<Box<NoiseCells>>,
     ) -> Option<Part> {
         let tolerance = goal.tolerance;
-        let curves = contents.conics.len() + contents.occluders.len();
+        // Outlines cost little beside the silhouettes that they follow.
+        let is_outline = |(kind, _): &&(Kind, _)| matches!(kind, Kind::Outline(_));
+        let outlines = contents.conics.iter().filter(is_outline).count();
+        let curves = contents.conics.len() - outlines + contents.occluders.len();
         let is_crowd = curves > MOST_CURVES && tolerance < LOOSE
             || curves > MOST_CURVES_LOOSELY && tolerance < LOOSEST;
         if is_crowd || tolerance < LEAST_TOLERANCE || !self.prepare(scene, contents) {

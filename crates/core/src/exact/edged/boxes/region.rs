@@ -92,33 +92,23 @@ impl<S: Simd> Region<S> {
         self.taken += f64x8::splat(simd, 1.0) - share;
     }
 
-    /// Takes away what is inside of both of two half-planes.
+    /// Takes away what is inside of both of two half-planes whose lines cut a box; of others this is a half-plane: see
+    /// [`HalfPlane::left_by_both`].
     #[inline(always)]
-    pub(super) fn cut_by_both(&mut self, simd: S, one: &HalfPlane<S>, other: &HalfPlane<S>) {
-        let whole = HalfPlane::whole(simd);
-        let ambiguities = [one.ambiguity(simd), other.ambiguity(simd)];
-        let [is_cut, is_cut_too] = ambiguities.map(|a| a.simd_gt(LEAST_AMBIGUITY));
-        // Where one line cuts a box, the other side is a half-plane, too.
-        let is_filled = one.share.simd_gt(0.5) & !is_cut;
-        let is_filled_too = other.share.simd_gt(0.5) & !is_cut_too;
-        let mut part = whole
-            .or(is_filled_too, &one.other_side(simd))
-            .or(is_filled, &other.other_side(simd));
-        // One that seems to fill a box may not.
-        part.doubt = one.doubt + other.doubt;
-        self.cut(simd, &part);
-        let is_cut_twice = is_cut & is_cut_too;
-        if is_cut_twice.to_bitmask() != 0 {
-            let full = f64x8::splat(simd, 1.0);
-            let zero = f64x8::splat(simd, 0.0);
-            let left = full - one.share * other.share;
-            self.rest *= is_cut_twice.select(left, full);
-            // They have no less in common than what makes them more than the box, and no more than the smaller of them.
-            let common = (one.share + other.share - full).max(zero);
-            let least = is_cut_twice.select(full - common, full);
-            self.least = self.least.min(least);
-            self.taken += is_cut_twice.select(one.share.min(other.share), zero);
+    pub(super) fn leave_of_both(&mut self, simd: S, one: &HalfPlane<S>, other: &HalfPlane<S>) {
+        let is_cut_twice = one.is_cut(simd) & other.is_cut(simd);
+        if is_cut_twice.to_bitmask() == 0 {
+            return;
         }
+        let full = f64x8::splat(simd, 1.0);
+        let zero = f64x8::splat(simd, 0.0);
+        let left = full - one.share * other.share;
+        self.rest *= is_cut_twice.select(left, full);
+        // They have no less in common than what makes them more than the box, and no more than the smaller of them.
+        let common = (one.share + other.share - full).max(zero);
+        let least = is_cut_twice.select(full - common, full);
+        self.least = self.least.min(least);
+        self.taken += is_cut_twice.select(one.share.min(other.share), zero);
     }
 
     /// Leaves nothing of some boxes.
@@ -165,6 +155,27 @@ impl<S: Simd> Region<S> {
             moments: [moments[0] * self.rest, moments[1] * self.rest],
             ambiguity: above.max(below).max(zero),
         }
+    }
+}
+
+impl<S: Simd> HalfPlane<S> {
+    /// The boxes that its line cuts.
+    #[inline(always)]
+    fn is_cut(&self, simd: S) -> mask64x8<S> {
+        self.ambiguity(simd).simd_gt(LEAST_AMBIGUITY)
+    }
+
+    /// What is not inside of both of two half-planes, where one line cuts a box; all where both do.
+    #[inline(always)]
+    pub(super) fn left_by_both(&self, simd: S, other: &Self) -> Self {
+        let is_filled = self.share.simd_gt(0.5) & !self.is_cut(simd);
+        let is_filled_too = other.share.simd_gt(0.5) & !other.is_cut(simd);
+        let mut left = Self::whole(simd)
+            .or(is_filled_too, &self.other_side(simd))
+            .or(is_filled, &other.other_side(simd));
+        // One that seems to fill a box may not.
+        left.doubt = self.doubt + other.doubt;
+        left
     }
 }
 

@@ -81,7 +81,9 @@ fn what_is_inside_of_both_of_two_half_planes_claims_enough() {
             };
             let mut region = Region::whole(simd);
             region.cut(simd, &part(third));
-            region.cut_by_both(simd, &part(one), &part(other));
+            let (one, other) = (part(one), part(other));
+            region.cut(simd, &one.left_by_both(simd, &other));
+            region.leave_of_both(simd, &one, &other);
             let share = region.share(simd);
             [share.area, share.ambiguity].map(|lanes| lanes[3])
         });
