@@ -13,6 +13,8 @@ pub(super) struct Draft {
     /// Fields of the scene.
     pub(super) head: Vec<String>,
     pub(super) material: String,
+    /// Further materials, each after a comma.
+    pub(super) more_materials: String,
     pub(super) lights: Vec<String>,
     pub(super) spheres: Vec<String>,
     /// Spheres whose effect is too small to detect, so that reference pictures leave them out.
@@ -69,6 +71,7 @@ impl Draft {
         Self {
             head: Vec::new(),
             material: String::new(),
+            more_materials: String::new(),
             lights: Vec::new(),
             spheres: Vec::new(),
             doubles: Vec::new(),
@@ -155,9 +158,10 @@ impl Draft {
             .map(|field| format!("    {field},\n"))
             .collect();
         format!(
-            "(\n{head}    lights: [{}\n    ],\n    materials: {{ \"m\": ({}) }},\n    spheres: [{}\n    ],\n)\n",
+            "(\n{head}    lights: [{}\n    ],\n    materials: {{ \"m\": ({}){} }},\n    spheres: [{}\n    ],\n)\n",
             lines(&self.lights),
             self.material,
+            self.more_materials,
             lines(spheres)
         )
     }

@@ -1,5 +1,6 @@
 //! Families of small random scenes, each difficult in its own way.
 
+use super::colors::colored;
 use super::draft::Draft;
 use super::extremes::{brightness, far_parallel_lenses, huge_floors, near_eyes, nearly_coincident};
 use super::leds::{leds, leds_together};
@@ -30,7 +31,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 40] = [
+pub(super) const FAMILIES: [Family; 41] = [
     Family {
         name: "ordinary",
         draft: Maker::Random(ordinary),
@@ -230,5 +231,10 @@ pub(super) const FAMILIES: [Family; 40] = [
         name: "LED mixtures",
         draft: Maker::Row(leds_together),
         rarity: 2,
+    },
+    Family {
+        name: "colors",
+        draft: Maker::Random(colored),
+        rarity: 1,
     },
 ];

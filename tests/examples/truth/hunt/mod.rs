@@ -4,6 +4,7 @@
 //! samples. These are cheap filters: if they disagree, the tests' own integrator decides. Each scene is rendered again
 //! with a radius an ulp larger. Pixels over their tolerance are counted.
 
+mod colors;
 mod draft;
 mod extremes;
 mod families;
