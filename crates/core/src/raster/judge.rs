@@ -39,8 +39,9 @@ pub(super) struct Weights {
     pub(super) channels: Channels,
     /// The light by parts of which samples of different balls differ at least.
     pub(super) of_spheres: f64,
-    /// The brightest channel of the background, in units, and of what the samples of the tile see.
+    /// The brightest channel of the background, in units.
     pub(super) of_background: f64,
+    /// The same of what the samples of the tile see, as if no ball kept light from it.
     pub(super) brightest: f32,
     /// The largest ratio of the albedos of what is seen in the tile.
     pub(super) of_albedos: f32,

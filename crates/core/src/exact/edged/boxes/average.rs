@@ -137,10 +137,12 @@ impl Setting<'_, '_> {
                     matches!(wanted, Wanted::Light(..)) && self.contents.has_outlines();
                 let outside = self.contours(simd, &boxes, (contours, has_outlines));
                 let mut sum = Sum::nothing(simd, self.scene.channels);
-                let mut whole = f64x8::splat(simd, 0.0);
+                let nothing = f64x8::splat(simd, 0.0);
+                // The share of the sphere whose face may follow.
+                let mut whole = nothing;
                 for contour in &contours.spheres {
                     let Some(mut visible) = contour.visible(simd, contours, self.orders) else {
-                        whole *= 0.0;
+                        whole = nothing;
                         continue;
                     };
                     match &mut wanted {

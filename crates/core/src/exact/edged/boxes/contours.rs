@@ -18,19 +18,20 @@ use crate::numeric::polynomial::Quadratic;
 pub(super) struct Contour {
     /// Its position among the active spheres.
     pub(super) position: usize,
+    /// The outline of the sphere, or that this is the face.
     pub(super) line: Line,
     /// Whether it fills all boxes.
     fills: bool,
-    /// The part inside of its silhouette.
+    /// The part inside of its silhouette, or of the edge of the outline.
     inside: StoredHalfPlane,
     /// The steps along both axes, in sides, from the middle of the visible part to a point where the root of
     /// the discriminant is the average.
     inward: [Eight; 2],
     /// The position of its depth among those that are known, if it intersects another sphere.
-    pub(super) depth: usize,
+    depth: usize,
 }
 
-/// The spheres that eight boxes see.
+/// The spheres that eight boxes see, each with an outline followed by its face.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contours {
     pub(super) spheres: Vec<Contour>,
