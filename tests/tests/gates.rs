@@ -33,7 +33,7 @@ const METHODS: [&str; 9] = [
 ];
 
 /// The file, the comparison, and its effect.
-const GATES: [[&str; 3]; 13] = [
+const GATES: [[&str; 3]; 14] = [
     [
         "context.rs",
         "contrast.max ( LEAST )",
@@ -63,6 +63,11 @@ const GATES: [[&str; 3]; 13] = [
         "edged/boxes/mod.rs",
         "tolerance < LOOSEST",
         "cost: which crowds boxes try",
+    ],
+    [
+        "edged/boxes/mod.rs",
+        "tolerance < TIGHT",
+        "cost: how many boxes",
     ],
     [
         "edged/parts.rs",

@@ -76,23 +76,23 @@ const LEAST_TOLERANCE: f64 = 2.2e-4;
 /// The spheres in a cell from which on other ways are cheaper.
 const MOST_SPHERES: usize = 24;
 
-/// The curves in a cell from which on boxes meet no tight tolerance soon. Not tuned finely.
-const MOST_CURVES: usize = 6;
-
-/// The least tolerance that is not tight. At the 1.2e-3 that it once was, a million spheres without shadows took 5.1 s to
-/// 2e-3 and 3.2 s to 1e-3, and a cloud of a thousand with shadows a tenth more instructions to 1e-2. With 4e-2 a snowman
-/// with highlights would take 4 % more to 3e-2.
+/// Below the first tolerance boxes meet none soon, from the last one on they meet anything.
+const TIGHT: f64 = 1.2e-3;
 const LOOSE: f64 = 2e-2;
-
-/// The same of a tolerance that is not tight, below the one to which boxes meet anything. Not tuned finely: a million spheres under a
-/// sun with shadows, on 600 × 600 pixels, took 8.3 s to 1e-2 and 6.2 s to 3e-2 without such a limit, and 5.5 s and 4.9 s with it.
-const MOST_CURVES_LOOSELY: usize = 12;
 const LOOSEST: f64 = 5e-2;
 
-/// Times that eight boxes are integrated before the cell is given up: few where others follow its edges in less, more
-/// to a loose tolerance, which boxes meet soon. Not tuned finely.
-const FEWEST_EIGHTS: usize = 10;
-const MOST_EIGHTS: usize = 40;
+/// The curves in a cell from which on boxes meet the tolerance too late, below [`LOOSE`], and below [`LOOSEST`]. Not tuned
+/// finely: a million spheres under a sun with shadows, on 600 × 600 pixels, took 8.3 s to 1e-2 and 6.2 s to 3e-2 without such
+/// a limit, and 5.5 s and 4.9 s with 12 curves. Without shadows, they took 5.1 s to 2e-3 with 12, and 3.2 s with 6.
+const FEW_CURVES: usize = 6;
+const MANY_CURVES: usize = 12;
+
+/// Times that eight boxes are integrated before the cell is given up, below [`TIGHT`], below [`LOOSE`], and above: few where
+/// others follow its edges in less. Not tuned finely: to 3e-3, 10 take 4 % more instructions for the turntable than 20, and
+/// 40 take 9 % more for a cloud of a thousand with shadows; to 3e-2, 20 take 4 % more for the snowman than 40.
+const FEW_EIGHTS: usize = 10;
+const SOME_EIGHTS: usize = 20;
+const MANY_EIGHTS: usize = 40;
 
 impl Boxes {
     /// The average over a cell, if its claim is within the tolerance.
@@ -110,8 +110,8 @@ impl Boxes {
         let is_outline = |(kind, _): &&(Kind, _)| matches!(kind, Kind::Outline(_));
         let outlines = contents.conics.iter().filter(is_outline).count();
         let curves = contents.conics.len() - outlines + contents.occluders.len();
-        let is_crowd = curves > MOST_CURVES && tolerance < LOOSE
-            || curves > MOST_CURVES_LOOSELY && tolerance < LOOSEST;
+        let is_crowd =
+            curves > FEW_CURVES && tolerance < LOOSE || curves > MANY_CURVES && tolerance < LOOSEST;
         if is_crowd || tolerance < LEAST_TOLERANCE || !self.prepare(scene, contents) {
             return None;
         }
@@ -125,10 +125,12 @@ impl Boxes {
             orders: &self.orders,
             has_silhouette: &self.has_silhouette,
         };
-        let most_eights = if tolerance < LOOSE {
-            FEWEST_EIGHTS
+        let most_eights = if tolerance < TIGHT {
+            FEW_EIGHTS
+        } else if tolerance < LOOSE {
+            SOME_EIGHTS
         } else {
-            MOST_EIGHTS
+            MANY_EIGHTS
         };
         let part = self
             .division
