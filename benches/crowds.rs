@@ -1,16 +1,13 @@
-//! Measures crowds: a million spheres of about a pixel, with and without shadows, by tolerances and by samples, and a
+//! Measures crowds: a million spheres of about two pixels, with and without shadows, by tolerances and by samples, and a
 //! still, for which the world is prepared anew.
 
 use std::num::NonZeroU32;
 
 use marbles_benches::{
-    Case, even_cloud, largest_difference, load, main as run, mean, render, square_view, table,
+    Case, largest_difference, load, main as run, mean, million, render, square_view, table,
 };
 use marbles_core::{Method, Renderer, View, World};
 
-const COUNT: u32 = 1_000_000;
-/// Of all spheres.
-const RADIUS: f64 = 0.6;
 const SIDE: u32 = 600;
 /// The finest last.
 const TOLERANCES: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
@@ -21,7 +18,7 @@ const OF_STILL: f64 = 1e-2;
 fn main() {
     run(|| {
         let view = square_view(&load("tests/truth/pixels/cloud1k"), SIDE);
-        let mut world = even_cloud(COUNT, RADIUS);
+        let mut world = million();
         let dark = measure("a million with shadows", &world, &view);
         world.shadows = false;
         let bright = measure("a million without shadows", &world, &view);

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-use marbles_benches::{even_cloud, load, main as run, mean, median, square_view};
+use marbles_benches::{load, main as run, mean, median, million, square_view};
 use marbles_core::{Method, Renderer, Settings, View, World};
 
 const SIDE: u32 = 600;
@@ -20,7 +20,7 @@ fn main() {
         let view = square_view(&scene, SIDE);
         for (name, mut world) in [
             ("cloud1k", scene.world().clone()),
-            ("cloud1m", even_cloud(1_000_000, 0.6)),
+            ("cloud1m", million()),
             ("empty", World::new()),
         ] {
             world.shadows = false;

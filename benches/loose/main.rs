@@ -8,7 +8,7 @@ mod picture;
 use std::fmt::Write as _;
 
 use marbles_benches::page::Page;
-use marbles_benches::{even_cloud, is_to_write, load, main as run, square_view};
+use marbles_benches::{is_to_write, load, main as run, million, square_view};
 use marbles_core::{Method, Renderer, View, World};
 
 use self::picture::{Picture, SAMPLES, TOLERANCES, by};
@@ -81,10 +81,7 @@ fn measure() -> ([String; 2], Vec<String>) {
     }
     let cloud = load("tests/truth/pixels/cloud1k");
     let view = square_view(&cloud, SIDE);
-    let clouds = [
-        ("cloud1k", cloud.world().clone()),
-        ("a million", even_cloud(1_000_000, 0.6)),
-    ];
+    let clouds = [("cloud1k", cloud.world().clone()), ("a million", million())];
     for (name, mut world) in clouds {
         add(name, &world, &view);
         world.shadows = false;

@@ -204,6 +204,11 @@ pub fn even_cloud(count: u32, radius: f64) -> World {
     scattered(count, |_| radius)
 }
 
+/// A million balls in the same cube, each about two pixels wide in a picture of 600 × 600 pixels.
+pub fn million() -> World {
+    even_cloud(1_000_000, 0.6)
+}
+
 fn scattered(count: u32, radius: impl Fn(f64) -> f64) -> World {
     let mut state = u64::from(count);
     let mut random = || {

@@ -76,7 +76,8 @@ const LEAST_TOLERANCE: f64 = 2.2e-4;
 /// The spheres in a cell from which on other ways are cheaper.
 const MOST_SPHERES: usize = 24;
 
-/// Below the first tolerance boxes meet none soon, from the last one on they meet anything.
+/// The tolerance below which boxes seldom meet it before a cell's edges would, and those below which they do not where
+/// curves are more than few, or many.
 const TIGHT: f64 = 1.2e-3;
 const LOOSE: f64 = 2e-2;
 const LOOSEST: f64 = 5e-2;
@@ -88,8 +89,9 @@ const FEW_CURVES: usize = 6;
 const MANY_CURVES: usize = 12;
 
 /// Times that eight boxes are integrated before the cell is given up, below [`TIGHT`], below [`LOOSE`], and above: few where
-/// others follow its edges in less. Not tuned finely: to 3e-3, 10 take 4 % more instructions for the turntable than 20, and
-/// 40 take 9 % more for a cloud of a thousand with shadows; to 3e-2, 20 take 4 % more for the snowman than 40.
+/// others follow its edges in less. Not tuned finely: the turntable takes 4 % more instructions to 3e-3 with 10 than with 20,
+/// a cloud of a thousand with shadows 9 % more to 2e-3 with 40 than with 20, and the snowman 4 % more to 3e-2 with 20 than
+/// with 40.
 const FEW_EIGHTS: usize = 10;
 const SOME_EIGHTS: usize = 20;
 const MANY_EIGHTS: usize = 40;
