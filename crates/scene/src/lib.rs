@@ -44,6 +44,6 @@ pub use scene::{
     CellDescription, CloudDescription, ColorDescription, ColorMeaning, Description, OrbitCamera,
     OrbitCenter, STANDARD_INPUT, Scene, Setting, SettingError, Unturnable,
 };
-pub use table::{COMPRESSED_ENDINGS, written_time};
+pub use table::{COMPRESSED_ENDINGS, TableBytes, Tables, written_time};
 pub use text::harmless;
 pub use world::{ColumnContents, ColumnSummary, Progress, ScaleKind, StepKey};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::located::{SceneFault, locate, message};
 use super::snippet::{Style, Window};
 use crate::text::token::line_and_column;
-use crate::text::{Fault, LocatedFault, harmless};
+use crate::text::{Fault, LocatedFault, harmless, path_at};
 
 /// The reason for which a scene file was refused.
 ///
@@ -83,7 +83,11 @@ impl SceneError {
     pub(crate) fn unreadable(path: &Path, reason: &str) -> Self {
         Self {
             faults: Vec::new(),
-            ..Self::new(path, vec![LocatedFault::of_file(reason)], "")
+            ..Self::new(
+                path,
+                vec![(LocatedFault::of_file(reason), String::new())],
+                "",
+            )
         }
     }
 
@@ -96,7 +100,7 @@ impl SceneError {
         let (line, column) = line_and_column(text, place.start);
         let scene = harmless(&scene.to_string_lossy());
         let end = format!("{NAMED_AT}{scene}:{line}:{column}");
-        Self::new(path, vec![fault], &end)
+        Self::new(path, vec![(fault, path_at(text, place.start))], &end)
     }
 
     /// The same error of a table that no scene file names.
@@ -119,16 +123,23 @@ impl SceneError {
             untold => format!("\n\nand {untold} more faults"),
         };
         let told = faults.into_iter().take(MOST_FAULTS);
-        let faults = told.map(|fault| locate(text, fault)).collect();
-        Self::new(path, faults, &end)
+        let faults = told.map(|fault| {
+            let value = path_at(text, fault.place.start);
+            (locate(text, fault), value)
+        });
+        Self::new(path, faults.collect(), &end)
     }
 
-    /// The error of these faults; `end` follows their messages.
-    fn new(path: &Path, faults: Vec<LocatedFault>, end: &str) -> Self {
+    /// The error of these faults, each with the path of its value; `end` follows their messages.
+    fn new(path: &Path, faults: Vec<(LocatedFault, String)>, end: &str) -> Self {
+        let (located, values): (Vec<_>, Vec<_>) = faults.into_iter().unzip();
+        let faults = located.iter().zip(values);
         Self {
             path: path.to_path_buf(),
-            faults: faults.iter().map(SceneFault::new).collect(),
-            located: faults,
+            faults: faults
+                .map(|(fault, value)| SceneFault::new(fault, value))
+                .collect(),
+            located,
             end: end.to_owned(),
             is_of_changed_table: false,
         }

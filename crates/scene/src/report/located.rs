@@ -19,6 +19,7 @@ use crate::text::{Fault, LocatedFault, Place, harmless, show};
 /// let error = Scene::parse(text, Path::new("ball.ron")).unwrap_err();
 /// let places: Vec<_> = error.faults().iter().map(|fault| (fault.line, fault.column)).collect();
 /// assert_eq!(places, [(2, 39), (2, 54)]);
+/// assert_eq!(error.faults()[0].value, "spheres[0].radius");
 /// ```
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct SceneFault {
@@ -28,11 +29,14 @@ pub struct SceneFault {
     pub column: usize,
     /// The message: what was expected, and what was found.
     pub message: String,
+    /// The value of the scene file that it concerns, such as `lights[0].toward`; for a fault in a table, the cloud that names
+    /// it. Empty for the whole file.
+    pub value: String,
 }
 
 impl SceneFault {
     /// The fault as programs see it.
-    pub(super) fn new(fault: &LocatedFault) -> Self {
+    pub(super) fn new(fault: &LocatedFault, value: String) -> Self {
         let (line, column) = match fault.place {
             Place::Text {
                 line,
@@ -46,13 +50,14 @@ impl SceneFault {
             line: usize::try_from(line).unwrap_or(usize::MAX),
             column,
             message: fault.message.clone(),
+            value,
         }
     }
 }
 
 /// The message about a fault in the file at `path`: its place, the fault, and the line.
 pub(super) fn message(path: &Path, fault: &LocatedFault, style: Style, window: Window) -> String {
-    let SceneFault { line, message, .. } = SceneFault::new(fault);
+    let SceneFault { line, message, .. } = SceneFault::new(fault, String::new());
     let snippet = match &fault.place {
         Place::Text { text, span, .. } => snippet(text, span.clone(), line, style, window),
         Place::Row { .. } | Place::File => None,
@@ -71,7 +76,7 @@ pub(crate) fn in_a_line(path: &Path, fault: &LocatedFault) -> String {
 
 /// The place of a fault in the file at `path`, with a colon behind it.
 fn place(path: &Path, fault: &LocatedFault) -> String {
-    let SceneFault { line, column, .. } = SceneFault::new(fault);
+    let SceneFault { line, column, .. } = SceneFault::new(fault, String::new());
     let path = harmless(&path.to_string_lossy());
     match &fault.place {
         Place::Text { .. } => format!("{path}:{line}:{column}:"),

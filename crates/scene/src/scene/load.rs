@@ -1,32 +1,27 @@
 //! The way from a scene file to a scene.
 
-use std::borrow::Cow;
-use std::fs::File as OpenFile;
-use std::io::{ErrorKind, Read as _};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::other_file::{self, Kind};
 use super::oversights;
 use super::own_camera::AsWritten;
-use super::read::{BLOCK, LARGEST_FILE, STANDARD_INPUT, read_at_most, read_standard_input};
 use super::refused::refused;
 use super::setting::Setting;
+use super::source_text::{TextOf, as_ron, text_of, without_byte_order_mark};
 use super::{Description, Scene};
 use crate::figure::Figure;
 use crate::file::{Camera, File, Materials};
 use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
-use crate::text::{
-    Fault, Placed, Read, Slice, collect, is_json, optional, reason, set, to_ron, token,
-};
+use crate::table::Tables;
+use crate::text::{Fault, Placed, Read, Slice, collect, optional, set, token};
 use crate::values::{MOST_FRAMES, MaterialName};
 use crate::world::{self, Cloud, OpenCloud, Part, Progress, Series, Step};
 
 impl Scene {
     /// Reads and checks the scene file at `path`, and the tables that it names; or the scene in the standard input if the path
-    /// is [`STANDARD_INPUT`], whose tables are in the current folder.
+    /// is [`STANDARD_INPUT`](crate::STANDARD_INPUT), whose tables are in the current folder.
     ///
     /// Tables are read on the threads of the current rayon pool.
     ///
@@ -62,90 +57,19 @@ impl Scene {
         settings: &[Setting],
         watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Self, SceneError> {
-        if path.is_dir() {
-            let reason = "expected a scene file, found a folder";
-            return Err(SceneError::unreadable(path, reason));
-        }
-        if other_file::is_named_pipe(path) {
-            let reason = "expected a scene file, found a named pipe";
-            return Err(SceneError::unreadable(path, reason));
-        }
-        let is_input = path == Path::new(STANDARD_INPUT);
-        if !is_input && let Some(name) = table_name(path)? {
-            let text = figure.scene_text(path, &name);
-            let own_path = path.with_file_name(format!("{name} (its scene)"));
+        let TextOf {
+            text,
+            path: own_path,
+            is_of_table,
+        } = text_of(path, figure)?;
+        if is_of_table {
             let scene = Self::parse_with(&text, &own_path, settings, watch);
             return scene.map_err(SceneError::of_table_alone);
         }
-        let bytes = if is_input {
-            read_standard_input()
-        } else {
-            read_at_most(path, LARGEST_FILE)
-        };
-        let bytes = bytes.map_err(|error| {
-            let why = match error.kind() {
-                ErrorKind::NotFound => "no such file",
-                ErrorKind::PermissionDenied => "no permission to read this file",
-                ErrorKind::FileTooLarge => {
-                    "expected a scene file of at most 1 GiB, found a larger one"
-                }
-                ErrorKind::OutOfMemory => "there is not enough memory to read this file",
-                _ => &reason(&error),
-            };
-            SceneError::unreadable(path, why)
-        })?;
-        match other_file::kind(path, &bytes) {
-            Kind::Scene => {}
-            Kind::Table => {
-                let message =
-                    "expected a scene, found a table that is not a regular file: save it as one";
-                return Err(SceneError::unreadable(path, message));
-            }
-            Kind::Other(message) => return Err(SceneError::unreadable(path, &message)),
-        }
-        let text = str::from_utf8(&bytes).map_err(|error| error.valid_up_to());
-        let text = text.and_then(|text| {
-            text.strip_suffix('\0')
-                .map_or(Ok(text), |text| Err(text.len()))
-        });
-        match text {
-            Ok(text) => {
-                let own = figure.settings().into_iter();
-                let own = own.map(|(path, value)| Setting::new(path, &value));
-                let settings: Vec<Setting> = own.chain(settings.iter().cloned()).collect();
-                Self::parse_with(text, path, &settings, watch)
-            }
-            Err(valid_up_to) => {
-                let (valid, rest) = bytes.split_at(valid_up_to);
-                let valid = without_byte_order_mark(str::from_utf8(valid).unwrap_or_default());
-                let byte = rest.first().copied().unwrap_or_default();
-                let expected = if byte == 0 { "text" } else { "text in UTF-8" };
-                let message = format!("expected {expected}, found the byte 0x{byte:02x}");
-                let fault = Fault::new(valid.len()..valid.len(), message);
-                Err(SceneError::refused(path, valid, vec![fault]))
-            }
-        }
-    }
-
-    /// Returns whether the file at `path` is a table of particles.
-    ///
-    /// # Errors
-    /// Refuses files that cannot be opened, and files of other kinds than scenes and tables.
-    pub fn is_table(path: &Path) -> Result<bool, SceneError> {
-        let refused = |reason: &str| Err(SceneError::unreadable(path, reason));
-        if path.is_dir() {
-            return refused("expected a table of particles, found a folder");
-        }
-        if !path.is_file() {
-            return refused("no such file");
-        }
-        let mut head = Vec::new();
-        let is_read = OpenFile::open(path).and_then(|file| file.take(BLOCK).read_to_end(&mut head));
-        match (is_read, other_file::kind(path, &head)) {
-            (Err(error), _) => refused(&reason(&error)),
-            (Ok(_), Kind::Other(message)) => refused(&message),
-            (Ok(_), kind) => Ok(matches!(kind, Kind::Table)),
-        }
+        let own = figure.settings().into_iter();
+        let own = own.map(|(path, value)| Setting::new(path, &value));
+        let settings: Vec<Setting> = own.chain(settings.iter().cloned()).collect();
+        Self::parse_with(&text, path, &settings, watch)
     }
 
     /// Checks a scene file's text; `path` is named in messages, and its folder is where tables are.
@@ -155,7 +79,17 @@ impl Scene {
     /// # Errors
     /// Refuses everything that the format does not allow.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
-        Self::parse_with(text, path, &[], &|_| {})
+        Self::parse_with_tables(text, path, &Tables::default())
+    }
+
+    /// Checks a scene file's text as [`Self::parse`] does, with tables in memory in place of files of their names.
+    ///
+    /// # Errors
+    /// Refuses everything that the format and those of the tables do not allow.
+    pub fn parse_with_tables(text: &str, path: &Path, tables: &Tables) -> Result<Self, SceneError> {
+        let shown = without_byte_order_mark(text);
+        let ron = as_ron(shown, path)?;
+        Self::parse_watched(&ron, shown, (path, tables), &|_| {})
     }
 
     /// Checks a scene file's text with the values of `settings` in place of its own.
@@ -166,14 +100,10 @@ impl Scene {
         watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Self, SceneError> {
         let shown = without_byte_order_mark(text);
-        let ron = if is_json(shown) {
-            let ron = to_ron(shown);
-            Cow::Owned(ron.map_err(|fault| SceneError::refused(path, shown, vec![fault]))?)
-        } else {
-            Cow::Borrowed(shown)
-        };
+        let ron = as_ron(shown, path)?;
+        let files = Tables::default();
         if settings.is_empty() {
-            return Self::parse_watched(&ron, shown, path, watch);
+            return Self::parse_watched(&ron, shown, (path, &files), watch);
         }
         let mut text = ron.into_owned();
         for Setting { path: at, value } in settings {
@@ -182,14 +112,14 @@ impl Scene {
                 SceneError::unreadable(path, &message)
             })?;
         }
-        Self::parse_watched(&text, &text, path, watch)
+        Self::parse_watched(&text, &text, (path, &files), watch)
     }
 
     /// Checks a text in RON; messages show another one, with the same places.
     fn parse_watched(
         text: &str,
         shown: &str,
-        path: &Path,
+        (path, tables): (&Path, &Tables),
         watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Self, SceneError> {
         let (draft, faults) = collect(text, || {
@@ -198,7 +128,7 @@ impl Scene {
             Draft::new(&file, text)
         });
         match draft {
-            Some(draft) if faults.is_empty() => draft.finish(shown, path, watch),
+            Some(draft) if faults.is_empty() => draft.finish(shown, (path, tables), watch),
             _ => Err(SceneError::refused(path, shown, faults)),
         }
     }
@@ -269,7 +199,7 @@ impl Draft {
     fn finish(
         self,
         text: &str,
-        path: &Path,
+        (path, tables): (&Path, &Tables),
         watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Scene, SceneError> {
         let mut scene = self.scene;
@@ -277,7 +207,7 @@ impl Draft {
         let mut clouds = Vec::new();
         for cloud in self.clouds {
             let place = cloud.place.clone();
-            let open = OpenCloud::new(cloud, folder);
+            let open = OpenCloud::new(cloud, folder, tables);
             clouds.push(open.map_err(|error| refused(path, text, (place, error)))?);
         }
         let longest = clouds.iter().filter_map(OpenCloud::frames).max();
@@ -351,38 +281,3 @@ fn names(materials: &Materials) -> Option<Vec<String>> {
     let name = |name: &Placed<MaterialName>| Some(name.value.as_ref()?.0.clone());
     materials.0.iter().map(|(key, _)| name(key)).collect()
 }
-
-/// The name of the file at `path` if it is a table of particles; `None` if it is something else, or cannot be opened.
-///
-/// # Errors
-/// Refuses a table whose name is not in UTF-8.
-fn table_name(path: &Path) -> Result<Option<String>, SceneError> {
-    if !path.is_file() {
-        return Ok(None);
-    }
-    let mut head = Vec::new();
-    let is_read = OpenFile::open(path).and_then(|file| file.take(BLOCK).read_to_end(&mut head));
-    if is_read.is_err() {
-        return Ok(None);
-    }
-    match other_file::kind(path, &head) {
-        Kind::Table => {}
-        Kind::Scene => return Ok(None),
-        // Of all its bytes, those that tell this may not be read: no more than up to the first of 0.
-        Kind::Other(message) => return Err(SceneError::unreadable(path, &message)),
-    }
-    let name = path.file_name().and_then(|name| name.to_str());
-    let name = name.ok_or_else(|| {
-        let message = "expected a file name in UTF-8, as a scene names a table";
-        SceneError::unreadable(path, message)
-    })?;
-    Ok(Some(name.to_owned()))
-}
-
-/// The text behind a byte order mark.
-fn without_byte_order_mark(text: &str) -> &str {
-    text.strip_prefix('\u{feff}').unwrap_or(text)
-}
-
-#[cfg(test)]
-mod tests;

@@ -11,6 +11,7 @@ mod read;
 mod references;
 mod refused;
 mod setting;
+mod source_text;
 
 use std::ops::RangeInclusive;
 use std::path::PathBuf;

@@ -36,6 +36,15 @@ impl FileState {
             identity: identity(&metadata),
         })
     }
+
+    /// The state of a table of so many bytes in memory, which does not change.
+    pub(super) fn in_memory(size: u64) -> Self {
+        Self {
+            size,
+            changed: None,
+            identity: (0, 0),
+        }
+    }
 }
 
 #[cfg(unix)]

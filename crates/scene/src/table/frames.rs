@@ -65,16 +65,13 @@ impl<'watch> Frames<'watch> {
         path: &Path,
         watch: &'watch (dyn Fn(u64, u64) + Sync),
     ) -> Result<Self, TableError> {
-        Self::open_after(path, 0, watch)
+        Self::new(Source::open(path, watch)?, 0)
     }
 
-    /// Opens the table at `path`, which begins behind so many lines, if it is one of plain text.
-    pub(crate) fn open_after(
-        path: &Path,
-        lines: u64,
-        watch: &'watch (dyn Fn(u64, u64) + Sync),
-    ) -> Result<Self, TableError> {
-        let mut input = Input::new(Source::open(path, watch)?)?;
+    /// The table in `source`, which begins behind so many lines, if it is one of plain text.
+    pub(crate) fn new(source: Source<'watch>, lines: u64) -> Result<Self, TableError> {
+        let path = &source.path().to_owned();
+        let mut input = Input::new(source)?;
         let skipped = match lines {
             0 => 0,
             lines => input.skip_lines(lines)?,

@@ -41,6 +41,7 @@ mod kind;
 mod lammps;
 mod lammps_box;
 mod lammps_data;
+mod memory;
 mod mmcif;
 mod mol2;
 mod npy;
@@ -89,6 +90,7 @@ pub(crate) use error::TableError;
 pub(crate) use file_state::FileState;
 pub(crate) use format::{ENDINGS, Format};
 pub(crate) use frames::{FramePlace, Frames};
+pub use memory::{TableBytes, Tables};
 pub(crate) use other_file::OtherName;
 pub(crate) use paint::Paint;
 pub(crate) use remarks::Remarks;
@@ -96,6 +98,7 @@ pub(crate) use request::{
     Coloring, ColumnRef, Columns, Filter, Missing, Periodic, RadiusLaw, Request, Value, ValueRange,
 };
 pub(crate) use rows::Rows;
+pub(crate) use source::Source;
 pub(crate) use time::parse as time;
 pub use time::written_time;
 

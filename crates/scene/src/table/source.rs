@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::compression::{Compression, REMEDY, check_bytes, check_count, most_bytes};
 use super::decoded::Decoded;
 use super::file_state::FileState;
+use super::memory::{Memory, TableBytes};
 use crate::text::LocatedFault;
 
 /// The bytes of a table, whose reading somebody watches.
@@ -27,6 +28,7 @@ pub(crate) struct Source<'watch> {
 
 /// The way from the file to its bytes.
 enum Stream {
+    Memory(Memory),
     Plain(File),
     Decoded(Decoded),
 }
@@ -53,6 +55,29 @@ impl<'watch> Source<'watch> {
         })
     }
 
+    /// The table in memory that `path` names. `watch` is called after every reading.
+    pub(crate) fn in_memory(
+        path: &Path,
+        bytes: TableBytes,
+        watch: &'watch (dyn Fn(u64, u64) + Sync),
+    ) -> Self {
+        let memory = Memory::new(bytes);
+        Self {
+            state: FileState::in_memory(memory.size()),
+            stream: Stream::Memory(memory),
+            path: path.to_owned(),
+            compression: None,
+            read: 0,
+            decompressed: 0,
+            watch,
+        }
+    }
+
+    /// The file that is read.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The number of bytes, where it is known before they are read.
     pub(crate) fn size(&self) -> Option<u64> {
         self.can_seek().then_some(self.state.size)
@@ -60,19 +85,22 @@ impl<'watch> Source<'watch> {
 
     /// True where any byte can be read next.
     pub(crate) fn can_seek(&self) -> bool {
-        matches!(self.stream, Stream::Plain(_))
+        matches!(self.stream, Stream::Plain(_) | Stream::Memory(_))
     }
 
     /// Says whether the file is still the one that was opened.
     pub(crate) fn is_unchanged(&self) -> io::Result<bool> {
-        Ok(FileState::of(&self.path)? == self.state)
+        match self.stream {
+            Stream::Memory(_) => Ok(true),
+            Stream::Plain(_) | Stream::Decoded(_) => Ok(FileState::of(&self.path)? == self.state),
+        }
     }
 
     /// Refuses more rows or steps, which `noun` calls, than a compressed file may hold.
     pub(crate) fn check_count(&self, count: u64, noun: &str) -> Result<(), LocatedFault> {
         match self.stream {
             Stream::Decoded(_) => check_count(self.state.size, count, noun),
-            Stream::Plain(_) => Ok(()),
+            Stream::Plain(_) | Stream::Memory(_) => Ok(()),
         }
     }
 
@@ -80,7 +108,7 @@ impl<'watch> Source<'watch> {
     pub(crate) fn check_bytes(&self, bytes: u64, noun: &str) -> Result<(), LocatedFault> {
         match self.stream {
             Stream::Decoded(_) => check_bytes(self.state.size, bytes, noun),
-            Stream::Plain(_) => Ok(()),
+            Stream::Plain(_) | Stream::Memory(_) => Ok(()),
         }
     }
 
@@ -91,6 +119,10 @@ impl<'watch> Source<'watch> {
     pub(crate) fn seek(&mut self, to: u64) -> io::Result<()> {
         match &mut self.stream {
             Stream::Plain(file) => file.seek(SeekFrom::Start(to)).map(|_| ()),
+            Stream::Memory(memory) => {
+                memory.seek(to);
+                Ok(())
+            }
             Stream::Decoded(_) => Err(io::ErrorKind::NotSeekable.into()),
         }
     }
@@ -101,6 +133,11 @@ impl Read for Source<'_> {
         let count = match &mut self.stream {
             Stream::Plain(file) => {
                 let count = file.read(buffer)?;
+                self.read += count as u64;
+                count
+            }
+            Stream::Memory(memory) => {
+                let count = memory.read(buffer)?;
                 self.read += count as u64;
                 count
             }

@@ -19,6 +19,8 @@ enum Part<'p> {
 struct Item<'t> {
     /// The name before the colon, without its quotation marks.
     key: Option<&'t str>,
+    /// The place of the name, or else of the value.
+    start: usize,
     value: Range<usize>,
 }
 
@@ -83,6 +85,37 @@ pub(crate) fn append_after(text: &str, path: &str, more: &str) -> Result<String,
     let place = place.ok_or_else(|| format!("expected `{path}`, found none"))?;
     let (before, after) = text.split_at(place.end);
     Ok(format!("{before}{more}{after}"))
+}
+
+/// The path of the innermost value around a place of a text in RON, or in JSON; empty for the whole.
+pub(crate) fn path_at(text: &str, at: usize) -> String {
+    let mut path = String::new();
+    let mut place = whole(text);
+    while let Some(inside) = inside(text, place.clone()) {
+        let is_around = |item: &(usize, Item<'_>)| item.1.start <= at && at <= item.1.value.end;
+        let count = inside.items.len();
+        let Some((index, item)) = inside.items.into_iter().enumerate().find(is_around) else {
+            break;
+        };
+        match item.key {
+            // In JSON, a variant is an object with one key.
+            Some(variant) if variant.starts_with(|letter: char| letter.is_ascii_uppercase()) => {}
+            Some(name) => {
+                let point = if path.is_empty() { "" } else { "." };
+                path.push_str(point);
+                let is_plain = |letter: char| letter.is_alphanumeric() || "_- ".contains(letter);
+                match name.chars().all(is_plain) {
+                    true => path.push_str(name),
+                    false => path.push_str(&format!("\"{name}\"")),
+                }
+            }
+            // The only value of a variant, as in `Fov(50)`, is the variant's.
+            None if count == 1 && !text[place.start..].starts_with(['(', '[']) => {}
+            None => path.push_str(&format!("[{index}]")),
+        }
+        place = item.value;
+    }
+    path
 }
 
 /// The place of the value at `path`.
@@ -175,6 +208,7 @@ fn inside(text: &str, place: Range<usize>) -> Option<Inside<'_>> {
         }
         items.push(Item {
             key,
+            start: at,
             value: start..end,
         });
         at = skip_trivia(text, end);
@@ -297,6 +331,42 @@ mod tests {
             set("(a: 1 // one\n)", "b", "2").unwrap(),
             "(a: 1 // one\n, b: 2)"
         );
+    }
+
+    #[test]
+    fn places_have_the_paths_of_their_values() {
+        for (found, path) in [
+            ("50)", "lens"),
+            ("radius: 9", "camera.radius"),
+            ("9)", "camera.radius"),
+            ("1, -1", "lights[0].toward[1]"),
+            ("2))", "lights[1].position[2]"),
+            ("2), \"b.c", "materials.candy.exponent"),
+            ("// A", ""),
+        ] {
+            let at = TEXT.find(found).unwrap();
+            assert_eq!(path_at(TEXT, at), path, "{found}");
+        }
+        let json = r#"{"lens": {"Fov": 50}, "lights": [{"Point": {"position": [0, 1, "x"]}}]}"#;
+        let at = json.find("\"x\"").unwrap();
+        assert_eq!(path_at(json, at), "lights[0].position[2]");
+        assert_eq!(path_at(json, json.find("50").unwrap()), "lens");
+        for text in [
+            "",
+            "(",
+            "(a",
+            "(a:",
+            "(a: (",
+            "[",
+            "\"",
+            "(a: 1",
+            ")))",
+            "(a: (1, 2",
+        ] {
+            for at in 0..=text.len() {
+                path_at(text, at);
+            }
+        }
     }
 
     /// Whatever follows a value, or is missing of it, would become a part of the file around it.

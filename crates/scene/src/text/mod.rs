@@ -12,7 +12,7 @@ mod slice;
 mod suggest;
 pub(crate) mod token;
 
-pub(crate) use edit::{append_after, set, value_at};
+pub(crate) use edit::{append_after, path_at, set, value_at};
 pub(crate) use fault::{Fault, Names, collect, note_failure, refuse};
 pub(crate) use json::{is_json, to_ron};
 pub(crate) use located::{LocatedFault, Place};

@@ -16,7 +16,7 @@ use super::step::Step;
 use super::steps::{self, Steps};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
-use crate::table::{Frames, Remarks, Rows, TableError};
+use crate::table::{Frames, Remarks, Rows, TableBytes, TableError, Tables};
 use crate::text::{Fault, harmless, quoted};
 
 /// A cloud whose steps are known and can be read.
@@ -24,6 +24,8 @@ use crate::text::{Fault, harmless, quoted};
 pub(crate) struct OpenCloud {
     pub(crate) cloud: Cloud,
     pub(super) folder: PathBuf,
+    /// Tables in memory, which may have this one.
+    tables: Tables,
     pub(super) steps: Steps,
     learned: Learned,
     /// Doubts and guesses in all steps, if all were read, and the step that has the first place.
@@ -46,12 +48,13 @@ pub(crate) const FIRST_OF_SEVERAL: &str =
 pub(super) const UNWATCHED: &(dyn Fn(u64, u64) + Sync) = &|_, _| {};
 
 impl OpenCloud {
-    /// Finds the steps of a cloud.
-    pub(crate) fn new(cloud: Cloud, folder: &Path) -> Result<Self, CloudError> {
+    /// Finds the steps of a cloud whose table is one of `tables`, or else a file.
+    pub(crate) fn new(cloud: Cloud, folder: &Path, tables: &Tables) -> Result<Self, CloudError> {
         let path = folder.join(&cloud.name);
         let mut open = Self {
             cloud,
             folder: folder.to_owned(),
+            tables: tables.clone(),
             steps: Steps::One,
             learned: Learned::default(),
             remarks: (Remarks::default(), 0),
@@ -148,10 +151,16 @@ impl OpenCloud {
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         let mut files = match &self.steps {
             Steps::Files(files) => files.clone(),
+            _ if self.in_memory().is_some() => Vec::new(),
             Steps::One | Steps::Frames(_) | Steps::Times(..) => vec![self.path(0)],
         };
         files.extend(self.observed.others());
         files
+    }
+
+    /// The table, if it is in memory.
+    pub(super) fn in_memory(&self) -> Option<TableBytes> {
+        self.tables.get(&self.cloud.name)
     }
 
     /// The way from numbers to colors.

@@ -6,7 +6,7 @@ use std::sync::PoisonError;
 use super::CloudError;
 use super::open::{FIRST_OF_SEVERAL, OpenCloud, UNWATCHED};
 use super::steps::Steps;
-use crate::table::{FramePlace, Frames, OtherName, Request, Rows, TableError};
+use crate::table::{FramePlace, Frames, OtherName, Request, Rows, Source, TableError};
 use crate::text::harmless;
 
 impl OpenCloud {
@@ -16,7 +16,11 @@ impl OpenCloud {
         path: &Path,
         watch: &'watch (dyn Fn(u64, u64) + Sync),
     ) -> Result<Frames<'watch>, TableError> {
-        let mut frames = Frames::open_after(path, self.cloud.skip_lines, watch)?;
+        let source = match self.in_memory() {
+            Some(bytes) => Source::in_memory(path, bytes, watch),
+            None => Source::open(path, watch)?,
+        };
+        let mut frames = Frames::new(source, self.cloud.skip_lines)?;
         if let Some((name, _)) = &self.cloud.topology {
             frames.set_topology(OtherName {
                 name: name.clone(),

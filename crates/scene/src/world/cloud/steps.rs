@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use crate::file::End;
-use crate::table::{ColumnRef, FramePlace, Frames, TableError};
+use crate::table::{ColumnRef, FramePlace, Frames, Source, TableError};
 use crate::text::LocatedFault;
 
 /// The steps that a cloud has.
@@ -30,7 +30,7 @@ impl Steps {
             return None;
         };
         let (first, last) = (files.first()?, files.last()?);
-        let mut frames = Frames::open_after(last, skip_lines, &|_, _| {}).ok()?;
+        let mut frames = Frames::new(Source::open(last, &|_, _| {}).ok()?, skip_lines).ok()?;
         frames.skip().ok()?;
         let mut doubts = frames.take_doubts();
         let is_open = |path: &Path| last_byte(path).ok().map(|byte| byte != b'\n');
