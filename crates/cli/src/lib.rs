@@ -1,12 +1,13 @@
 //! The command line of marbles.
 //!
 //! Every command is a file of `commands`. `sequence` renders frames one after the other, `formats` writes and reads
-//! pictures through `files`, and `terminal` handles output to the user.
+//! pictures through `files`, and `terminal` handles output to the user. [`library`] renders to memory, for other programs.
 
 mod base;
 mod commands;
 mod files;
 mod formats;
+pub mod library;
 mod sequence;
 mod terminal;
 
@@ -21,8 +22,14 @@ use crate::terminal::{abort, signals};
 
 /// Runs the command line `args`, which begins with the name of the program, like the binary `marbles`.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    ExitCode::from(exit_code(args))
+}
+
+/// Like [`run`], but returns the exit code as a number, for a process that goes on a little. Signals that end processes end
+/// this one as they end the binary.
+pub fn exit_code(args: impl IntoIterator<Item = OsString>) -> u8 {
     abort::end_as_failure();
-    ExitCode::from(run_on(args, &Console::of_process()))
+    run_on(args, &Console::of_process())
 }
 
 /// Like [`run`], but with results and messages written to `out` and `err`, which are not terminals. Returns the exit

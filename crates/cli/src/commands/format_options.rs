@@ -7,7 +7,7 @@ use crate::formats::encoding::{
 };
 
 /// The options of the format. Refuses options of other formats.
-pub(super) fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Failure> {
+pub(crate) fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Failure> {
     let output = match format {
         Format::Png | Format::Animation(AnimationFormat::Apng) => "PNG",
         Format::Animation(AnimationFormat::Gif) => "GIF",
@@ -91,6 +91,7 @@ pub(super) fn encoding(arguments: &RenderArguments, format: Format) -> Result<En
         Format::Npy | Format::Npz => Encoding::Npy(NpyOptions {
             error: arguments.error_channel,
             archive: format == Format::Npz,
+            evidence: false,
         }),
         Format::Tiff => Encoding::Tiff(TiffOptions {
             float: arguments.float,

@@ -1,6 +1,7 @@
 //! `marbles render`: renders the frames of a scene to picture files.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use marbles_core::{Method, Settings, View, parallel};
 use marbles_scene::Setting;
@@ -28,7 +29,7 @@ use crate::sequence::outcome::Outcome;
 use crate::sequence::parts::PicturePart;
 use crate::sequence::pattern::{Pattern, with_scene};
 use crate::sequence::render::render;
-use crate::sequence::request::Request;
+use crate::sequence::request::{Destination, Request};
 use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 use crate::terminal::progress::Progress;
@@ -192,7 +193,7 @@ pub(super) fn request(
         },
         error_scale: 1.0,
         frames_per_second: arguments.fps.or(scene.frames_per_second()),
-        scene,
+        scene: Arc::new(scene),
         scene_path: path.to_owned(),
         frames,
         parts,
@@ -203,6 +204,7 @@ pub(super) fn request(
         sidecar: arguments.sidecar,
         skip_existing: arguments.skip_existing,
         fail_fast: arguments.fail_fast,
+        destination: Destination::Files,
     };
     check_outputs(&request)?;
     Ok(request)
@@ -215,22 +217,28 @@ fn check_view(
     threads: &ThreadPool,
     console: &Console,
 ) -> Result<(), Failure> {
+    if let Some(warning) = other_rate(request) {
+        scene::warn(&[warning], &request.scene_path, &arguments.options, console)?;
+    }
+    let warnings = view_warnings(request, threads);
+    scene::warn(&warnings, &request.scene_path, &arguments.options, console)
+}
+
+/// The warnings about mistakes in the first frame.
+pub(crate) fn view_warnings(request: &Request, threads: &ThreadPool) -> Vec<String> {
     /// The most frames that are checked.
     const FRAMES: usize = 1000;
     let scene = &request.scene;
     let frame = request.frames.first();
-    if let Some(warning) = other_rate(request) {
-        scene::warn(&[warning], &request.scene_path, &arguments.options, console)?;
-    }
     // Tables that cannot be read are told when their turn comes.
     let Ok(world) = parallel::install(threads, || scene.world_at(frame)) else {
-        return Ok(());
+        return Vec::new();
     };
     // Of clouds that change, the world of the first frame is that of no other one.
     let most = if scene.has_steps() { 1 } else { FRAMES };
     let frames = request.frames.iter().take(most);
     let views: Vec<View> = frames.filter_map(|frame| scene.view(frame).ok()).collect();
-    let warnings = parallel::install(threads, || {
+    parallel::install(threads, || {
         let lights_move = scene.has_moving_lights();
         let mut warnings = oversights::warnings(&world, &views, frame, lights_move);
         if let Method::Tolerance(tolerance) = request.settings.method {
@@ -247,8 +255,7 @@ fn check_view(
             ));
         }
         warnings
-    });
-    scene::warn(&warnings, &request.scene_path, &arguments.options, console)
+    })
 }
 
 /// The warning about an animation that is too fast for players, or too slow for its format.

@@ -110,7 +110,7 @@ pub(super) fn view_of(
 }
 
 /// Refuses frames that an option chooses and the scene does not have.
-pub(super) fn require_frames(
+pub(crate) fn require_frames(
     scene: &Scene,
     mut asked: impl Iterator<Item = i32>,
     option: &str,

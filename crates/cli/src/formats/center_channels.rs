@@ -1,7 +1,9 @@
 //! Channels with properties of the first hits of rays through pixel centers, and with averages over pixels.
 
 use clap::ValueEnum;
-use marbles_core::{Average, AverageSettings, Axes, Depth, GeometrySettings, Precision, Quantity};
+use marbles_core::{
+    Average, AverageSettings, Axes, Depth, Geometry, GeometrySettings, Precision, Quantity,
+};
 
 /// A group of channels, with the name on the command line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
@@ -80,6 +82,52 @@ impl Source {
     /// Returns whether the numbers are unsigned integers: indices of spheres.
     pub(crate) fn is_index(self) -> bool {
         matches!(self, Self::Id | Self::CoverageId)
+    }
+}
+
+/// The center values of rows of pixels.
+pub(crate) trait CenterValues {
+    /// The number of columns and rows.
+    fn size(&self) -> (u32, u32);
+
+    /// Passes the numbers of a row's pixels to `take`, from left to right; none of a source that is not there. All are
+    /// passed at once, which is several times as fast as one by one.
+    fn each_number(&self, source: Source, row: u32, take: impl FnMut(f64));
+
+    /// Passes the indices of the spheres of a row's pixels to `take`, from left to right.
+    fn each_index(&self, source: Source, row: u32, take: impl FnMut(u32));
+}
+
+impl CenterValues for Geometry {
+    fn size(&self) -> (u32, u32) {
+        (self.width(), self.height())
+    }
+
+    fn each_number(&self, source: Source, row: u32, take: impl FnMut(f64)) {
+        match source {
+            Source::Value(quantity, component) => {
+                let values = self.values(quantity, component, row);
+                values.into_iter().flatten().for_each(take);
+            }
+            Source::Average(average, component) => {
+                let values = self.averages(average, component, row);
+                values.into_iter().flatten().for_each(take);
+            }
+            Source::Id | Source::CoverageId | Source::Mask => {
+                let mask = |id| f64::from(u8::from(id != Self::NOTHING));
+                self.ids(row).map(mask).for_each(take);
+            }
+        }
+    }
+
+    fn each_index(&self, source: Source, row: u32, take: impl FnMut(u32)) {
+        match source {
+            Source::CoverageId => {
+                let ids = self.coverage_ids(row);
+                ids.into_iter().flatten().for_each(take);
+            }
+            _ => self.ids(row).for_each(take),
+        }
     }
 }
 

@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 
 use ::exr::block::chunk::Chunk;
 use blake3::Hash;
-use marbles_core::{Geometry, GeometrySettings, Image, Precision, Rendering, Summary};
+use marbles_core::{GeometrySettings, Image, Precision, Rendering, Summary};
 
+use super::center_channels::CenterValues;
 use super::encoding::{AnimationFormat, Encoding};
 use super::exr::blocks::{Blocks, ROWS_OF_A_BLOCK};
 use super::exr::write::write_blocks;
 use super::facts::Facts;
 use super::form::Form;
 use super::npy::files::Files;
+use super::npy::memory::NamedArray;
 use super::npy::stamp::Stamp;
 use super::png::shape::Shape;
 use super::png::write::{texts, write};
@@ -152,7 +154,12 @@ impl Encoder {
     }
 
     /// Copies the center values of the pixels of a strip to their positions, starting at the column `col`.
-    pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
+    pub(crate) fn encode_geometry(
+        &self,
+        samples: &mut [u8],
+        col: u32,
+        geometry: &impl CenterValues,
+    ) {
         match &self.layout {
             // They have no such channels.
             Layout::Png { .. } | Layout::Tiff(_) => {}
@@ -223,6 +230,22 @@ impl Encoder {
             }
         };
         finish(path, written.and_then(|file| complete().map(|()| file)))
+    }
+
+    /// The arrays of an NPZ file, in memory. `next` returns the pieces, as for [`Self::write`].
+    pub(crate) fn collect(
+        &self,
+        mut next: impl FnMut() -> Option<Piece>,
+    ) -> Result<Vec<NamedArray>, Fault> {
+        let Layout::Npy(files) = &self.layout else {
+            // Other formats have no arrays.
+            return Err(Fault::Stopped);
+        };
+        let mut arrays = files.arrays.begin().map_err(Fault::Encoding)?;
+        for _ in 0..self.pieces() {
+            files.arrays.extend(&mut arrays, &samples(next())?);
+        }
+        Ok(arrays)
     }
 
     /// Writes a file with a number of pictures to `path`, completely or not at all. `written` is called after each

@@ -100,6 +100,8 @@ pub(crate) struct NpyOptions {
     pub(crate) error: bool,
     /// All arrays in one NPZ file.
     pub(crate) archive: bool,
+    /// An array that says of each pixel whether its error is a bound. No file has it.
+    pub(crate) evidence: bool,
 }
 
 /// The settings for writing a TIFF file.

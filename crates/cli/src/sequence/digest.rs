@@ -20,45 +20,53 @@ const PURPOSE: &str = "marbles 2026-11-25.1 digest of a picture";
 /// The number of spheres that are hashed at a time. The digest depends on it.
 const SPHERES: usize = 1 << 14;
 
+/// The digest of the worlds and the settings that a sequence's pictures share, whatever their format.
+#[derive(Clone, Debug)]
+pub(crate) struct Input {
+    shared: Feed,
+}
+
 /// The digests of a sequence's pictures.
 #[derive(Clone, Debug)]
-pub(super) struct Digests {
+pub(crate) struct Digests {
     /// The digest of what all pictures share.
     shared: Feed,
 }
 
 /// The part of a picture's input that differs within a sequence, in contrast to the world, the settings and the format.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shot<'a> {
+pub(crate) struct Shot<'a> {
     /// Its view, and the motion of the camera while the shutter is open.
-    pub(super) exposure: &'a Exposure<'a>,
+    pub(crate) exposure: &'a Exposure<'a>,
     /// The frame number for the user, which may be beyond the full turn of the view's number.
-    pub(super) frame: i32,
-    pub(super) frames_per_second: Option<f64>,
+    pub(crate) frame: i32,
+    pub(crate) frames_per_second: Option<f64>,
 }
 
-impl Digests {
-    /// The digests for the pictures of a world whose spheres have these hashes.
-    pub(super) fn new(
-        world: &World,
-        spheres: &[Hash],
-        settings: &Settings,
-        encoding: Encoding,
-        centers: Option<&CenterChannels>,
-    ) -> Self {
+impl Input {
+    /// The input of the pictures of a world whose spheres have these hashes.
+    pub(super) fn new(world: &World, spheres: &[Hash], settings: &Settings) -> Self {
         let mut shared = Feed(Hasher::new_derive_key(PURPOSE));
         shared.world(world, spheres);
         shared.settings(settings);
+        Self { shared }
+    }
+
+    /// The digests of the pictures in this format.
+    pub(crate) fn digests(&self, encoding: Encoding, centers: Option<&CenterChannels>) -> Digests {
+        let mut shared = self.shared.clone();
         shared.encoding(encoding);
         // Files without them have the digests that they had before there were any.
         if let Some(centers) = centers {
             shared.centers(centers);
         }
-        Self { shared }
+        Digests { shared }
     }
+}
 
+impl Digests {
     /// The same for lights with names, which are part of sidecars. Without names, nothing changes.
-    pub(super) fn with_names(mut self, names: &[Option<String>]) -> Self {
+    pub(crate) fn with_names(mut self, names: &[Option<String>]) -> Self {
         if names.iter().any(Option::is_some) {
             for name in names {
                 self.shared.maybe(name.as_ref(), |feed, name| {
@@ -83,7 +91,7 @@ impl Digests {
     }
 
     /// The digest of one picture.
-    pub(super) fn of(&self, shot: &Shot<'_>) -> Hash {
+    pub(crate) fn of(&self, shot: &Shot<'_>) -> Hash {
         let Shot {
             exposure,
             frame,
@@ -254,7 +262,7 @@ impl Feed {
                 self.integer(float);
                 self.integer(error);
             }
-            Encoding::Npy(NpyOptions { error, archive }) => {
+            Encoding::Npy(NpyOptions { error, archive, .. }) => {
                 // Four is for archives, so that the digests of files are what they were.
                 self.integer(if archive { 4 } else { 2 });
                 self.integer(error);

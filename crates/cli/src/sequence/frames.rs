@@ -39,6 +39,18 @@ struct Range {
 }
 
 impl FrameList {
+    /// These frames in their order; `None` of none.
+    pub(crate) fn of(frames: &[i32]) -> Option<Self> {
+        let runs = frames.chunk_by(|one, next| one.checked_add(1) == Some(*next));
+        let range = |run: &[i32]| Range {
+            first: run[0].into(),
+            last: run[run.len() - 1].into(),
+            step: 1,
+        };
+        let ranges: Vec<Range> = runs.map(range).collect();
+        (!ranges.is_empty()).then_some(Self { ranges })
+    }
+
     /// The frames in order; repetitions are left out.
     pub(crate) fn iter(&self) -> impl Iterator<Item = i32> {
         self.ranges.iter().enumerate().flat_map(|(index, range)| {

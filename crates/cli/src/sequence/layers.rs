@@ -29,13 +29,9 @@ impl LightLayer {
         let others: HashSet<&str> = of_layer.map(|(layer, _)| layer).collect();
         let mut keys = HashSet::new();
         let count = world.lights.len();
-        let numbered = |index| format!("light-{}", light_number(index, count));
         let layer = |light| {
             let key = match light {
-                LightPart::Light(index) => {
-                    let name = names.get(index).and_then(Option::as_deref);
-                    name.map_or_else(|| numbered(index), layer_safe)
-                }
+                LightPart::Light(index) => layer_name(index, count, names),
                 LightPart::Ambient => "ambient".to_owned(),
             };
             if key.len() > LONGEST {
@@ -55,6 +51,13 @@ impl LightLayer {
         };
         world.light_parts().map(layer).collect()
     }
+}
+
+/// The name of the layer of one of several lights, of which some may have names.
+pub(crate) fn layer_name(index: usize, count: usize, names: &[Option<String>]) -> String {
+    let name = names.get(index).and_then(Option::as_deref);
+    let numbered = || format!("light-{}", light_number(index, count));
+    name.map_or_else(numbered, layer_safe)
 }
 
 /// Names of channels have at most 255 bytes. This leaves room for the name of the channel within the layer.

@@ -2,7 +2,8 @@
 //! one begins as soon as threads have nothing else to do.
 
 mod clock;
-mod digest;
+pub(crate) mod collector;
+pub(crate) mod digest;
 pub(crate) mod frames;
 pub(crate) mod layers;
 pub(crate) mod messages;

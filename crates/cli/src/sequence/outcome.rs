@@ -23,6 +23,8 @@ pub(crate) struct Outcome {
     pub(crate) skipped: u64,
     /// Frames that could not be rendered or written.
     pub(crate) failed: Vec<i32>,
+    /// The reason for the first failure.
+    pub(crate) failure: Option<String>,
     /// The combined results of the written frames.
     pub(crate) total: Option<Summary>,
     /// The number of pixels of the written frames that are too bright for a PNG.
@@ -59,6 +61,7 @@ pub(super) struct Failures {
 #[derive(Default)]
 struct State {
     frames: Vec<i32>,
+    first: Option<String>,
     /// The reasons that were already reported.
     reasons: HashSet<String>,
 }
@@ -79,6 +82,7 @@ impl Failures {
         let message = failure.to_string();
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.frames.push(frame);
+        state.first.get_or_insert_with(|| message.clone());
         // The file and the number of the frame are others each time.
         let path = path.shown();
         let reason = message.strip_prefix(&path).unwrap_or(&message);
@@ -96,10 +100,11 @@ impl Failures {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// The failed frames.
-    pub(super) fn into_frames(self) -> Vec<i32> {
+    /// The failed frames, and the reason of the first failure.
+    pub(super) fn into_frames(self) -> (Vec<i32>, Option<String>) {
         let state = self.state.into_inner();
-        state.unwrap_or_else(PoisonError::into_inner).frames
+        let State { frames, first, .. } = state.unwrap_or_else(PoisonError::into_inner);
+        (frames, first)
     }
 }
 

@@ -12,6 +12,8 @@ pub(crate) struct PicturePart {
     /// The part of the light that it shows; `None` for all of it.
     pub(crate) light: Option<LightPart>,
     name: Name,
+    /// Whether the picture contains the center values.
+    has_centers: bool,
 }
 
 /// The name of a picture's file.
@@ -29,6 +31,7 @@ impl PicturePart {
         Self {
             light: None,
             name: Name::Inserted(String::new()),
+            has_centers: true,
         }
     }
 
@@ -52,6 +55,7 @@ impl PicturePart {
             Ok(Self {
                 light: Some(light),
                 name: Name::Inserted(inserted),
+                has_centers: light == LightPart::Ambient,
             })
         };
         world.light_parts().map(part).collect()
@@ -62,6 +66,15 @@ impl PicturePart {
         Self {
             light: Some(light),
             name: Name::Whole(name),
+            has_centers: light == LightPart::Ambient,
+        }
+    }
+
+    /// The same picture without center values.
+    pub(crate) fn without_centers(self) -> Self {
+        Self {
+            has_centers: false,
+            ..self
         }
     }
 
@@ -82,9 +95,10 @@ impl PicturePart {
         }
     }
 
-    /// Returns whether the picture contains the center values, which are the same for all lights.
+    /// Returns whether the picture contains the center values. They are the same for all lights, and without the picture
+    /// of all light, that of ambient light has them.
     pub(crate) fn has_centers(&self) -> bool {
-        matches!(self.light, None | Some(LightPart::Ambient))
+        self.has_centers
     }
 
     /// The file of the picture, derived from the one at `path`.

@@ -7,6 +7,7 @@ use std::sync::mpsc::Receiver;
 use marbles_core::Channels;
 
 use super::clock::Clock;
+use super::digest::Input;
 use super::outcome::Failures;
 use super::reorder_buffer::ReorderBuffer;
 use super::request::Request;
@@ -47,7 +48,8 @@ pub(super) struct Order {
     /// The number of this picture among the frame's pictures.
     pub(super) part: usize,
     pub(super) path: PathBuf,
-    /// The file to write; `None` if all frames go into one file.
+    pub(super) input: Input,
+    /// The file to write; `None` if all frames go into one file, or into none.
     pub(super) file: Option<TemporaryFile>,
     /// The number of the first piece in the buffer that belongs to the next picture.
     pub(super) end: u64,
@@ -87,7 +89,7 @@ impl<'a> Pipeline<'a> {
             capacity = capacity.max(2 * together as u64 * pieces);
         }
         // Without all of its frames there is no animation.
-        let is_fatal = request.fail_fast || request.is_animation();
+        let is_fatal = request.fail_fast || request.is_animation() || request.is_in_memory();
         Ok(Self {
             request,
             progress,
@@ -102,7 +104,7 @@ impl<'a> Pipeline<'a> {
 
     /// Returns whether the work should end.
     pub(super) fn stop(&self) -> bool {
-        interrupt::requested() || self.failures.stop()
+        interrupt::requested() || self.failures.stop() || self.request.is_cancelled()
     }
 
     /// Counts and reports a frame that could not be rendered or written.

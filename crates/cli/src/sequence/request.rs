@@ -1,6 +1,8 @@
 //! The request for a sequence of pictures.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use marbles_core::{Settings, View, Window};
 use marbles_scene::Scene;
@@ -18,7 +20,7 @@ use crate::formats::form::Form;
 
 /// The requested pictures, and their files.
 pub(crate) struct Request {
-    pub(crate) scene: Scene,
+    pub(crate) scene: Arc<Scene>,
     /// The scene file.
     pub(crate) scene_path: PathBuf,
     pub(crate) frames: FrameList,
@@ -44,6 +46,16 @@ pub(crate) struct Request {
     pub(crate) skip_existing: bool,
     /// Whether the first failure ends the work.
     pub(crate) fail_fast: bool,
+    /// Where the pictures go.
+    pub(crate) destination: Destination,
+}
+
+/// Where pictures go.
+pub(crate) enum Destination {
+    /// To their files.
+    Files,
+    /// To another part of the process, which sets this when it wants no more of them.
+    Memory(Arc<AtomicBool>),
 }
 
 impl Request {
@@ -57,6 +69,19 @@ impl Request {
     /// Returns whether all frames go into one file.
     pub(crate) fn is_animation(&self) -> bool {
         matches!(self.encoding, Encoding::Animation(..))
+    }
+
+    /// Returns whether no files are written.
+    pub(super) fn is_in_memory(&self) -> bool {
+        matches!(self.destination, Destination::Memory(_))
+    }
+
+    /// Returns whether no more pictures are wanted.
+    pub(super) fn is_cancelled(&self) -> bool {
+        match &self.destination {
+            Destination::Files => false,
+            Destination::Memory(cancelled) => cancelled.load(Ordering::Relaxed),
+        }
     }
 
     /// The view of a frame, in the requested size.

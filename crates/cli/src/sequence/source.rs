@@ -83,7 +83,7 @@ struct Wanted {
     facts: Facts,
     part: usize,
     path: PathBuf,
-    /// The file to write; `None` if all frames go into one file.
+    /// The file to write; `None` if all frames go into one file, or into none.
     file: Option<TemporaryFile>,
 }
 
@@ -202,17 +202,20 @@ impl<'a> Source<'a> {
         let encoder = &self.pipeline.encoders[part];
         let files = encoder.files(path, &facts.digest);
         let sidecar = request.sidecar.then(|| sidecar::beside(path));
-        for path in files.iter().map(|(path, _)| path).chain(&sidecar) {
-            save::clean(path, &mut self.left_over);
+        if !request.is_in_memory() {
+            for path in files.iter().map(|(path, _)| path).chain(&sidecar) {
+                save::clean(path, &mut self.left_over);
+            }
         }
         let contents = (facts.digest, encoder.form.region);
         let is_there = || is_there(&files, sidecar.as_deref(), contents);
-        let may_be_there = request.skip_existing && !request.is_animation();
+        let may_be_there =
+            request.skip_existing && !request.is_animation() && !request.is_in_memory();
         if may_be_there && is_there() {
             return Ok(Decision::Skip);
         }
         step.require_memory()?;
-        let file = if request.is_animation() {
+        let file = if request.is_animation() || request.is_in_memory() {
             None
         } else if !request.skip_existing {
             Some(save::begin(path)?)
@@ -290,11 +293,11 @@ impl<'a> Source<'a> {
             ..
         } = self.pipeline;
         let Wanted {
+            step,
             facts,
             part,
             path,
             file,
-            ..
         } = wanted;
         let encoder = &encoders[part];
         let first_piece = self.begun * u64::from(encoder.pieces());
@@ -303,6 +306,7 @@ impl<'a> Source<'a> {
             facts,
             part,
             path,
+            input: step.inputs[part].clone(),
             file,
             end: first_piece + u64::from(encoder.pieces()),
             finished,

@@ -13,7 +13,7 @@ use marbles_scene::{Scene, SceneError, StepKey};
 use rayon::ThreadPoolBuilder;
 use self_cell::self_cell;
 
-use super::digest::{Digests, hashes_of_spheres};
+use super::digest::{Digests, Input, hashes_of_spheres};
 use super::request::Request;
 use crate::base::failure::Failure;
 use crate::base::memory;
@@ -27,6 +27,8 @@ pub(super) struct Step {
     world: PreparedWorld,
     /// One for each picture of a frame.
     pub(super) digests: Vec<Digests>,
+    /// The input of each picture of a frame.
+    pub(super) inputs: Vec<Input>,
     /// Counts the step as long as it is in memory.
     _place: Place,
 }
@@ -47,17 +49,22 @@ impl Step {
         let spheres = hashes_of_spheres(&world);
         let names = &request.scene.description().lights;
         let layers = request.layer_names();
-        let digests = request.parts.iter().map(|part| {
+        let inputs = request
+            .parts
+            .iter()
+            .map(|part| Input::new(&part.of(&world), &spheres, &request.settings));
+        let inputs: Vec<Input> = inputs.collect();
+        let digests = request.parts.iter().zip(&inputs).map(|(part, input)| {
             let centers = request.centers.filter(|_| part.has_centers());
-            let (settings, encoding) = (&request.settings, request.encoding);
-            let of_light = part.of(&world);
-            Digests::new(&of_light, &spheres, settings, encoding, centers.as_ref())
+            let digests = input.digests(request.encoding, centers.as_ref());
+            digests
                 .with_names(part.names_of(names))
                 .with_layers(&layers)
         });
         Self {
             key,
             digests: digests.collect(),
+            inputs,
             world: PreparedWorld::new(world, |_| OnceLock::new()),
             _place: place,
         }

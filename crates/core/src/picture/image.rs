@@ -156,6 +156,43 @@ impl Image {
         }
     }
 
+    /// The picture with these numbers: red, green and blue of each pixel, and its alpha if `alpha`, row by row; and the error
+    /// of each. Of a gray picture, red counts. Its errors are estimates, for no tolerance.
+    ///
+    /// # Panics
+    /// If there are not as many numbers as the size needs.
+    pub fn of_numbers(
+        (width, height): (u32, u32),
+        channels: Channels,
+        alpha: bool,
+        light: &[f64],
+        errors: &[f64],
+    ) -> Self {
+        let layout = Layout {
+            size: (width, height),
+            channels,
+            alpha,
+            uniform: Uniform {
+                error: None,
+                outcome: Some((Evidence::Estimate, Status::NoTolerance)),
+            },
+        };
+        let mut image = Self::new(layout, None);
+        let pixels = width as usize * height as usize;
+        let stride = 3 + usize::from(alpha);
+        assert_eq!(light.len(), pixels * stride, "the numbers of light");
+        assert_eq!(errors.len(), pixels, "the errors");
+        let count = channels.count();
+        let own = image.values.chunks_exact_mut(count + usize::from(alpha));
+        for (own, all) in own.zip(light.chunks_exact(stride)) {
+            own[..count].copy_from_slice(&all[..count]);
+            own[count..].copy_from_slice(&all[3..]);
+        }
+        image.errors = Plane::Each(errors.to_vec());
+        image.is_blank = false;
+        image
+    }
+
     /// Number of columns.
     pub fn width(&self) -> u32 {
         self.width

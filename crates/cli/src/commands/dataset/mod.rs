@@ -9,6 +9,7 @@ mod mark;
 mod tests;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use marbles_core::{
     DirectionalLight, Light, LightPart, Method, PointLight, Renderer, Settings, View, World,
@@ -32,7 +33,7 @@ use crate::sequence::messages;
 use crate::sequence::parts::PicturePart;
 use crate::sequence::pattern::Pattern;
 use crate::sequence::render::render;
-use crate::sequence::request::Request;
+use crate::sequence::request::{Destination, Request};
 use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 use crate::terminal::progress::Progress;
@@ -195,12 +196,13 @@ fn request(
             alpha: false,
         },
         error_scale: gain,
-        scene,
+        scene: Arc::new(scene),
         scene_path: arguments.scene.clone(),
         centers: None,
         sidecar: false,
         skip_existing: arguments.skip_existing,
         fail_fast: false,
+        destination: Destination::Files,
     })
 }
 

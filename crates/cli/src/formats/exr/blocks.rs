@@ -7,11 +7,13 @@ use exr::block::{BlockIndex, UncompressedBlock};
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
 use exr::prelude::{AttributeValue, IntegerBounds, Text, Vec2};
-use marbles_core::{Channels, Geometry, Image};
+use marbles_core::{Channels, Image};
 
 use super::header::header_of;
 use crate::base::region::Region;
-use crate::formats::center_channels::{CenterChannel, CenterChannels, Source, name_of};
+use crate::formats::center_channels::{
+    CenterChannel, CenterChannels, CenterValues, Source, name_of,
+};
 use crate::formats::encoding::ExrOptions;
 use crate::formats::form::Form;
 use crate::formats::half;
@@ -184,16 +186,22 @@ impl Blocks {
     }
 
     /// Copies the center values of rows of pixels to their positions, like [`Self::encode`] for light.
-    pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
+    pub(crate) fn encode_geometry(
+        &self,
+        samples: &mut [u8],
+        col: u32,
+        geometry: &impl CenterValues,
+    ) {
+        let (width, height) = geometry.size();
         let columns = self.header.layer_size.x();
         let rows = samples.chunks_exact_mut(self.row_bytes());
-        for (samples, row) in rows.zip(0..geometry.height()) {
+        for (samples, row) in rows.zip(0..height) {
             let mut end = 0;
             for channel in &self.channels {
                 let start = end + col as usize * channel.bytes;
                 end += columns * channel.bytes;
                 if let Content::Center(source) = channel.content {
-                    let own = start..start + geometry.width() as usize * channel.bytes;
+                    let own = start..start + width as usize * channel.bytes;
                     let (samples, _) = samples[own].as_chunks_mut();
                     encode_center(samples, source, geometry, row);
                 }
@@ -227,39 +235,18 @@ fn encode_light(samples: &mut [u8], is_float: bool, light: impl Iterator<Item = 
 }
 
 /// Copies a center value of each pixel of a row to the samples of a channel.
-fn encode_center(samples: &mut [[u8; 4]], source: Source, geometry: &Geometry, row: u32) {
-    match source {
-        Source::Value(quantity, component) => {
-            let values = geometry.values(quantity, component, row);
-            put_all(samples, values.into_iter().flatten(), |value| {
-                float(value).to_ne_bytes()
-            });
-        }
-        Source::Average(average, component) => {
-            let values = geometry.averages(average, component, row);
-            put_all(samples, values.into_iter().flatten(), |value| {
-                float(value).to_ne_bytes()
-            });
-        }
-        Source::Id => put_all(samples, geometry.ids(row), u32::to_ne_bytes),
-        Source::CoverageId => {
-            let ids = geometry.coverage_ids(row);
-            put_all(samples, ids.into_iter().flatten(), u32::to_ne_bytes);
-        }
-        Source::Mask => put_all(samples, geometry.ids(row), |id| {
-            f32::from(u8::from(id != Geometry::NOTHING)).to_ne_bytes()
-        }),
-    }
-}
-
-/// Copies numbers to samples. All numbers are requested at once, which is several times as fast as one by one.
-fn put_all<T>(samples: &mut [[u8; 4]], numbers: impl Iterator<Item = T>, bytes: fn(T) -> [u8; 4]) {
+fn encode_center(samples: &mut [[u8; 4]], source: Source, geometry: &impl CenterValues, row: u32) {
     let mut samples = samples.iter_mut();
-    numbers.for_each(|number| {
+    let mut put = |bytes| {
         if let Some(sample) = samples.next() {
-            *sample = bytes(number);
+            *sample = bytes;
         }
-    });
+    };
+    if source.is_index() {
+        geometry.each_index(source, row, |id| put(id.to_ne_bytes()));
+    } else {
+        geometry.each_number(source, row, |value| put(float(value).to_ne_bytes()));
+    }
 }
 
 /// The attributes that describe the meaning of center values.

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use marbles_core::{Geometry, Image};
+use marbles_core::{Evidence, Image};
 
 use super::array::{Array, Number};
 use crate::base::region::Region;
-use crate::formats::center_channels::{CenterChannels, Source};
+use crate::formats::center_channels::{CenterChannels, CenterValues, Source};
 use crate::formats::encoding::NpyOptions;
 use crate::formats::form::Form;
 
@@ -34,18 +34,37 @@ pub(super) struct Part {
     /// The suffix of the name of its file, or its name in an archive.
     pub(super) name: String,
     pub(super) array: Array,
-    contents: Contents,
+    pub(super) contents: Contents,
 }
 
 /// The numbers of an array.
 #[derive(Clone, Debug)]
-enum Contents {
+pub(super) enum Contents {
     Light,
     Error,
+    /// Whether the error is a bound.
+    Evidence,
     /// Numbers for each pixel, of these sources.
     Centers(Vec<Source>),
     /// Indices of spheres.
     Indices(Source),
+}
+
+impl Part {
+    /// Whether its numbers say of each pixel whether its error is a bound.
+    pub(super) fn is_evidence(&self) -> bool {
+        matches!(self.contents, Contents::Evidence)
+    }
+
+    /// Whether its numbers are indices of spheres.
+    pub(super) fn is_index(&self) -> bool {
+        matches!(self.contents, Contents::Indices(_))
+    }
+
+    /// Whether its numbers are not those of light.
+    fn has_centers(&self) -> bool {
+        matches!(self.contents, Contents::Centers(_) | Contents::Indices(_))
+    }
 }
 
 impl Arrays {
@@ -110,12 +129,15 @@ impl Arrays {
         if options.error {
             arrays.add(error, None, Contents::Error);
         }
+        if options.evidence {
+            arrays.add("bound", None, Contents::Evidence);
+        }
         arrays
     }
 
     fn add(&mut self, name: &str, channels: Option<u32>, contents: Contents) {
         let number = match contents {
-            Contents::Indices(_) => Number::U32,
+            Contents::Indices(_) | Contents::Evidence => Number::U32,
             Contents::Light | Contents::Error | Contents::Centers(_) => Number::F64,
         };
         self.all.push(Part {
@@ -142,24 +164,28 @@ impl Arrays {
             let array = part.array;
             let (own, others) = rest.split_at_mut(array.row_bytes() * rows.len());
             rest = others;
-            let is_error = match part.contents {
-                Contents::Light => false,
-                Contents::Error => true,
-                Contents::Centers(_) | Contents::Indices(_) => continue,
-            };
+            if part.has_centers() {
+                continue;
+            }
             let first = col as usize * array.pixel_bytes();
             let length = image.width() as usize * array.pixel_bytes();
             for (row, numbers) in rows.clone().zip(own.chunks_exact_mut(array.row_bytes())) {
                 let numbers = &mut numbers[first..first + length];
                 let pixels = numbers.chunks_exact_mut(array.pixel_bytes());
                 for (col, pixel) in (0..).zip(pixels) {
-                    let (numbers, _) = pixel.as_chunks_mut();
-                    if is_error {
-                        numbers[0] = image.error(col, row).to_le_bytes();
+                    if part.is_evidence() {
+                        let is_bound = image.evidence(col, row) == Evidence::Bound;
+                        pixel.copy_from_slice(&u32::from(is_bound).to_le_bytes());
                         continue;
                     }
-                    for (number, value) in numbers.iter_mut().zip(image.rgba(col, row)) {
-                        *number = value.to_le_bytes();
+                    let (numbers, _) = pixel.as_chunks_mut();
+                    match part.contents {
+                        Contents::Error => numbers[0] = image.error(col, row).to_le_bytes(),
+                        _ => {
+                            for (number, value) in numbers.iter_mut().zip(image.rgba(col, row)) {
+                                *number = value.to_le_bytes();
+                            }
+                        }
                     }
                 }
             }
@@ -167,25 +193,27 @@ impl Arrays {
     }
 
     /// Copies the center values of rows of pixels to their positions, like [`Self::encode`] for light.
-    pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
+    pub(crate) fn encode_geometry(
+        &self,
+        samples: &mut [u8],
+        col: u32,
+        geometry: &impl CenterValues,
+    ) {
+        let (width, height) = geometry.size();
         let mut rest = samples;
         for part in &self.all {
             let array = part.array;
-            let length = array.row_bytes() * geometry.height() as usize;
+            let length = array.row_bytes() * height as usize;
             let (own, others) = rest.split_at_mut(length);
             rest = others;
             let first = col as usize * array.pixel_bytes();
-            let length = geometry.width() as usize * array.pixel_bytes();
+            let length = width as usize * array.pixel_bytes();
             for (row, numbers) in (0..).zip(own.chunks_exact_mut(array.row_bytes())) {
                 let numbers = &mut numbers[first..first + length];
                 match &part.contents {
-                    Contents::Indices(Source::CoverageId) => {
-                        let ids = geometry.coverage_ids(row);
-                        put_indices(numbers, ids.into_iter().flatten());
-                    }
-                    Contents::Indices(_) => put_indices(numbers, geometry.ids(row)),
+                    Contents::Indices(source) => put_indices(numbers, *source, geometry, row),
                     Contents::Centers(sources) => encode_centers(sources, numbers, geometry, row),
-                    Contents::Light | Contents::Error => {}
+                    Contents::Light | Contents::Error | Contents::Evidence => {}
                 }
             }
         }
@@ -193,37 +221,25 @@ impl Arrays {
 }
 
 /// Copies the numbers of a row of pixels to their positions, pixel by pixel.
-fn encode_centers(sources: &[Source], numbers: &mut [u8], geometry: &Geometry, row: u32) {
+fn encode_centers(sources: &[Source], numbers: &mut [u8], geometry: &impl CenterValues, row: u32) {
     let (numbers, _) = numbers.as_chunks_mut();
     for (place, source) in sources.iter().enumerate() {
-        let own = numbers.iter_mut().skip(place).step_by(sources.len());
-        match *source {
-            Source::Value(quantity, component) => {
-                let values = geometry.values(quantity, component, row);
-                for (number, value) in own.zip(values.into_iter().flatten()) {
-                    *number = value.to_le_bytes();
-                }
+        let mut own = numbers.iter_mut().skip(place).step_by(sources.len());
+        geometry.each_number(*source, row, |value| {
+            if let Some(number) = own.next() {
+                *number = value.to_le_bytes();
             }
-            Source::Average(average, component) => {
-                let values = geometry.averages(average, component, row);
-                for (number, value) in own.zip(values.into_iter().flatten()) {
-                    *number = value.to_le_bytes();
-                }
-            }
-            Source::Id | Source::CoverageId | Source::Mask => {
-                for (number, id) in own.zip(geometry.ids(row)) {
-                    let mask = f64::from(u8::from(id != Geometry::NOTHING));
-                    *number = mask.to_le_bytes();
-                }
-            }
-        }
+        });
     }
 }
 
-/// Copies the indices of spheres to their positions.
-fn put_indices(numbers: &mut [u8], ids: impl Iterator<Item = u32>) {
+/// Copies the indices of the spheres of a row of pixels to their positions.
+fn put_indices(numbers: &mut [u8], source: Source, geometry: &impl CenterValues, row: u32) {
     let (numbers, _) = numbers.as_chunks_mut();
-    for (number, id) in numbers.iter_mut().zip(ids) {
-        *number = id.to_le_bytes();
-    }
+    let mut numbers = numbers.iter_mut();
+    geometry.each_index(source, row, |id| {
+        if let Some(number) = numbers.next() {
+            *number = id.to_le_bytes();
+        }
+    });
 }

@@ -34,13 +34,8 @@ const PNG: Encoding = Encoding::Png(PLAIN);
 
 fn digest_with(centers: Option<&CenterChannels>) -> Hash {
     let scene = Scene::parse(SCENE, Path::new("a.ron")).unwrap();
-    let digests = Digests::new(
-        scene.world(),
-        &hashes_of_spheres(scene.world()),
-        &SETTINGS,
-        PNG,
-        centers,
-    );
+    let digests = Input::new(scene.world(), &hashes_of_spheres(scene.world()), &SETTINGS)
+        .digests(PNG, centers);
     digests.of(&Shot {
         exposure: &scene.exposure(&scene.view(2).unwrap()),
         frame: 2,
@@ -75,13 +70,8 @@ fn channels_change_the_digest() {
 
 fn digest(text: &str, settings: &Settings, encoding: Encoding, frame: i32) -> Hash {
     let scene = Scene::parse(text, Path::new("a.ron")).unwrap();
-    let digests = Digests::new(
-        scene.world(),
-        &hashes_of_spheres(scene.world()),
-        settings,
-        encoding,
-        None,
-    );
+    let digests = Input::new(scene.world(), &hashes_of_spheres(scene.world()), settings)
+        .digests(encoding, None);
     let digests = digests.with_names(&scene.description().lights);
     digests.of(&Shot {
         exposure: &scene.exposure(&scene.view(frame).unwrap()),
@@ -188,6 +178,7 @@ fn whatever_changes_a_picture_changes_its_digest() {
         let encoding = Encoding::Npy(NpyOptions {
             error,
             archive: false,
+            evidence: false,
         });
         add("NPY", digest(SCENE, &SETTINGS, encoding, 2));
     }

@@ -20,6 +20,7 @@ fn write(image: &Image, region: Region, error: bool, name: &str) -> Vec<(PathBuf
     let options = NpyOptions {
         error,
         archive: false,
+        evidence: false,
     };
     write_as(image, region, options, name)
 }
@@ -145,6 +146,7 @@ fn nothing_is_left_of_a_picture_that_is_not_complete() {
         Encoding::Npy(NpyOptions {
             error: true,
             archive: false,
+            evidence: false,
         }),
         form,
         &[],
@@ -182,6 +184,7 @@ fn write_archive(image: &Image, region: Region, name: &str) -> PathBuf {
     let options = NpyOptions {
         error: true,
         archive: true,
+        evidence: false,
     };
     let files = write_as(image, region, options, name);
     assert!(matches!(&files[..], [(_, digest)] if *digest == DIGEST));

@@ -1,0 +1,156 @@
+//! Rendering frame by frame, on threads of its own.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread::{Builder, JoinHandle};
+use std::time::Duration;
+
+use marbles_scene::Scene;
+use rayon::ThreadPool;
+
+use super::error::Error;
+use super::options::Options;
+use super::picture::Picture;
+use crate::base::threads;
+use crate::commands::render::view_warnings;
+use crate::sequence::collector::Collected;
+use crate::sequence::render::render_in_memory;
+use crate::sequence::request::Request;
+use crate::terminal::console::Console;
+use crate::terminal::progress::Progress;
+
+/// The number of frames that wait to be taken while the next ones are rendered.
+const WAITING: usize = 1;
+
+/// The rendering of some frames of a scene, which goes on while finished pictures are taken. At most a few pictures
+/// wait to be taken. Dropping it ends the work.
+pub struct Rendering {
+    pictures: Option<Receiver<Result<Picture, Error>>>,
+    cancelled: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+    warnings: Vec<String>,
+}
+
+/// What happened while a picture was waited for.
+pub enum Next {
+    /// The next frame is complete.
+    Picture(Box<Picture>),
+    /// The time has passed.
+    Waiting,
+    /// There are no more frames.
+    End,
+}
+
+impl Rendering {
+    /// Begins to render a scene, the one at `path`.
+    ///
+    /// # Errors
+    /// Refuses options that `marbles render` refuses, and frames without a view.
+    pub fn begin(scene: &Arc<Scene>, path: &Path, options: &Options) -> Result<Self, Error> {
+        let cancelled = Arc::new(AtomicBool::new(false));
+        let request = options.request(scene, path, &cancelled)?;
+        let pool = threads::start(options.threads)?;
+        let warnings = view_warnings(&request, &pool);
+        let (sender, pictures) = sync_channel(WAITING);
+        let shows_progress = options.progress;
+        let thread = Builder::new()
+            .name("marbles".to_owned())
+            .spawn(move || run(request, &pool, shows_progress, &sender))
+            .map_err(|error| Error::Work(format!("cannot start a thread: {error}")))?;
+        Ok(Self {
+            pictures: Some(pictures),
+            cancelled,
+            thread: Some(thread),
+            warnings,
+        })
+    }
+
+    /// The warnings about mistakes in the first frame, such as a camera that sees no sphere.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Waits for the next frame, but no longer than `time`.
+    ///
+    /// # Errors
+    /// If the frame could not be rendered. None follows.
+    pub fn next(&mut self, time: Duration) -> Result<Next, Error> {
+        let Some(pictures) = &self.pictures else {
+            return Ok(Next::End);
+        };
+        match pictures.recv_timeout(time) {
+            Ok(Ok(picture)) => Ok(Next::Picture(Box::new(picture))),
+            Ok(Err(error)) => {
+                self.stop();
+                Err(error)
+            }
+            Err(RecvTimeoutError::Timeout) => Ok(Next::Waiting),
+            Err(RecvTimeoutError::Disconnected) => {
+                self.pictures = None;
+                match self.thread.take().map(JoinHandle::join) {
+                    Some(Err(_panic)) => {
+                        let message = "marbles has a fault: a thread panicked";
+                        Err(Error::Work(message.to_owned()))
+                    }
+                    _ => Ok(Next::End),
+                }
+            }
+        }
+    }
+
+    /// Ends the work, and waits until it has ended: a few milliseconds, or the time that a tile takes.
+    pub fn stop(&mut self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+        // A thread that would pass a picture on learns that nobody takes it.
+        self.pictures = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Drop for Rendering {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+/// Renders all frames, and passes them on.
+fn run(
+    request: Request,
+    pool: &ThreadPool,
+    shows_progress: bool,
+    sender: &SyncSender<Result<Picture, Error>>,
+) {
+    let console = match shows_progress {
+        true => Console::of_process(),
+        false => Console::to(std::io::sink(), std::io::sink()),
+    };
+    let progress = Progress::new(&console, None, !shows_progress, request.frames.count());
+    let mut of_frame: Vec<Collected> = Vec::new();
+    let (scene, path): (Arc<Scene>, PathBuf) =
+        (Arc::clone(&request.scene), request.scene_path.clone());
+    let parts = request.parts.clone();
+    let outcome = render_in_memory(&request, pool, &progress, |collected| {
+        of_frame.push(collected);
+        if of_frame.len() < parts.len() {
+            return ControlFlow::Continue(());
+        }
+        let picture = Picture::of_frame(&scene, &path, &parts, std::mem::take(&mut of_frame));
+        match sender.send(picture) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        }
+    });
+    progress.finish();
+    let failure = match outcome {
+        Ok(outcome) => outcome.failure.map(Error::Work),
+        Err(failure) => Some(failure.into()),
+    };
+    if let Some(failure) = failure {
+        let _ = sender.send(Err(failure));
+    }
+}
