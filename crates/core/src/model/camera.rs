@@ -1,7 +1,8 @@
 //! The camera: where it stands, where it looks, and its lens.
 
+use std::fmt;
+
 use glam::{DMat3, DVec2, DVec3};
-use thiserror::Error;
 
 use crate::numeric::angle::{Angle, Precise};
 
@@ -45,11 +46,10 @@ pub struct Camera {
 /// let refused = Lens::from_field_of_view(Angle::from_degrees(180.0));
 /// assert_eq!(refused, Err(CameraError::FieldOfView(180.0)));
 /// ```
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CameraError {
     /// The target is the position, or not at a finite distance from it: the camera has no direction.
-    #[error("expected a target at a finite distance from {position} that is not 0, found {target}")]
     Target {
         /// The position of the camera.
         position: DVec3,
@@ -57,9 +57,25 @@ pub enum CameraError {
         target: DVec3,
     },
     /// The field of view is not between 0 and 180 degrees: the angle from 0 to 360.
-    #[error("expected a field of view between 0 and 180 degrees, found {0}")]
     FieldOfView(f64),
 }
+
+impl fmt::Display for CameraError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Target { position, target } => write!(
+                out,
+                "expected a target at a finite distance from {position} that is not 0, found {target}"
+            ),
+            Self::FieldOfView(found) => write!(
+                out,
+                "expected a field of view between 0 and 180 degrees, found {found}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CameraError {}
 
 /// The camera at the origin that looks along z.
 impl Default for Camera {

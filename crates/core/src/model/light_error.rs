@@ -1,7 +1,8 @@
 //! The reasons for which lights are refused.
 
+use std::fmt;
+
 use glam::DVec3;
-use thiserror::Error;
 
 /// The reason for which a light was refused.
 ///
@@ -13,22 +14,43 @@ use thiserror::Error;
 /// let refused = Light::directional(DVec3::ZERO, DVec3::ONE);
 /// assert_eq!(refused, Err(LightError::Toward(DVec3::ZERO)));
 /// ```
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LightError {
     /// The vector toward a directional light is zero, infinite or not a number.
-    #[error("expected a finite vector toward the light that is not zero, found {0}")]
     Toward(DVec3),
     /// The position of a point light is infinite or not a number.
-    #[error("expected a finite position, found {0}")]
     Position(DVec3),
     /// The reference distance of a point light is zero, negative, infinite or not a number.
-    #[error("expected a finite reference distance greater than 0, found {0}")]
     Reference(f64),
     /// The direction that a lamp faces is zero, infinite or not a number.
-    #[error("expected a finite direction that is not zero, found {0}")]
     Direction(DVec3),
     /// The power of a lamp's emission is negative, infinite or not a number.
-    #[error("expected a finite power `mu` of at least 0, found {0}")]
     Mu(f64),
 }
+
+impl fmt::Display for LightError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Toward(found) => write!(
+                out,
+                "expected a finite vector toward the light that is not zero, found {found}"
+            ),
+            Self::Position(found) => write!(out, "expected a finite position, found {found}"),
+            Self::Reference(found) => write!(
+                out,
+                "expected a finite reference distance greater than 0, found {found}"
+            ),
+            Self::Direction(found) => write!(
+                out,
+                "expected a finite direction that is not zero, found {found}"
+            ),
+            Self::Mu(found) => write!(
+                out,
+                "expected a finite power `mu` of at least 0, found {found}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for LightError {}

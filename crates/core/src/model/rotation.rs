@@ -1,7 +1,8 @@
 //! Rotations that others have written down, rounded.
 
+use std::fmt;
+
 use glam::{DMat3, DVec3};
-use thiserror::Error;
 
 /// The reason for which a matrix is no rotation.
 ///
@@ -13,16 +14,25 @@ use thiserror::Error;
 /// let mirror = DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0));
 /// assert_eq!(nearest_rotation(mirror), Err(RotationError::Mirrors(-1.0)));
 /// ```
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RotationError {
     /// Its columns are not unit vectors at right angles: the largest entry of RᵀR − 1, which may be infinite.
-    #[error("RᵀR differs from 1 by {0:.1e}")]
     Skewed(f64),
     /// It mirrors: the determinant.
-    #[error("its determinant is {0}")]
     Mirrors(f64),
 }
+
+impl fmt::Display for RotationError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Skewed(found) => write!(out, "RᵀR differs from 1 by {found:.1e}"),
+            Self::Mirrors(found) => write!(out, "its determinant is {found}"),
+        }
+    }
+}
+
+impl std::error::Error for RotationError {}
 
 /// The rotation next to a matrix R.
 ///

@@ -1,7 +1,8 @@
 //! Spheres, as a scene describes them.
 
+use std::fmt;
+
 use glam::DVec3;
-use thiserror::Error;
 
 /// A sphere: an opaque surface, in the world frame.
 ///
@@ -35,16 +36,28 @@ pub struct Sphere {
 /// let refused = Sphere::new(DVec3::ZERO, -1.0);
 /// assert_eq!(refused, Err(SphereError::Radius(-1.0)));
 /// ```
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SphereError {
     /// The center is infinite or not a number.
-    #[error("expected a finite center, found {0}")]
     Center(DVec3),
     /// The radius is zero, negative, infinite or not a number.
-    #[error("expected a finite radius greater than 0, found {0}")]
     Radius(f64),
 }
+
+impl fmt::Display for SphereError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Center(found) => write!(out, "expected a finite center, found {found}"),
+            Self::Radius(found) => write!(
+                out,
+                "expected a finite radius greater than 0, found {found}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for SphereError {}
 
 impl Sphere {
     /// The sphere around `center`.

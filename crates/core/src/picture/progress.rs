@@ -1,8 +1,7 @@
 //! The caller's say in a rendering.
 
+use std::fmt;
 use std::ops::ControlFlow;
-
-use thiserror::Error;
 
 /// Is told of pixels that are done, of none now and then; when it breaks the work ends.
 pub(crate) type Progress<'caller> = dyn Fn(u64) -> ControlFlow<()> + Sync + 'caller;
@@ -26,6 +25,13 @@ pub(crate) type Progress<'caller> = dyn Fn(u64) -> ControlFlow<()> + Sync + 'cal
 /// assert_eq!(ended, Err(Cancelled));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, Eq, Error, PartialEq)]
-#[error("the rendering was stopped")]
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Cancelled;
+
+impl fmt::Display for Cancelled {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str("the rendering was stopped")
+    }
+}
+
+impl std::error::Error for Cancelled {}

@@ -1,0 +1,7 @@
+"""The command as a module: `python -m marbles`."""
+
+import sys
+
+from .command import main
+
+sys.exit(main())
