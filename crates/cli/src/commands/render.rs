@@ -230,15 +230,15 @@ pub(crate) fn view_warnings(request: &Request, threads: &ThreadPool) -> Vec<Stri
     const FRAMES: usize = 1000;
     let scene = &request.scene;
     let frame = request.frames.first();
-    // Tables that cannot be read are told when their turn comes.
-    let Ok(world) = parallel::install(threads, || scene.world_at(frame)) else {
-        return Vec::new();
-    };
-    // Of clouds that change, the world of the first frame is that of no other one.
-    let most = if scene.has_steps() { 1 } else { FRAMES };
-    let frames = request.frames.iter().take(most);
-    let views: Vec<View> = frames.filter_map(|frame| scene.view(frame).ok()).collect();
     parallel::install(threads, || {
+        // Tables that cannot be read are told when their turn comes.
+        let Ok(world) = scene.world_at(frame) else {
+            return Vec::new();
+        };
+        // Of clouds that change, the world of the first frame is that of no other one.
+        let most = if scene.has_steps() { 1 } else { FRAMES };
+        let frames = request.frames.iter().take(most);
+        let views: Vec<View> = frames.filter_map(|frame| scene.view(frame).ok()).collect();
         let lights_move = scene.has_moving_lights();
         let mut warnings = oversights::warnings(&world, &views, frame, lights_move);
         if let Method::Tolerance(tolerance) = request.settings.method {

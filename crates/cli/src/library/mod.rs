@@ -4,6 +4,7 @@
 mod error;
 mod options;
 mod picture;
+mod pool;
 mod rendering;
 mod save;
 

@@ -1,11 +1,11 @@
 //! Rendering frame by frame, on threads of its own.
 
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
 use marbles_scene::Scene;
@@ -14,7 +14,7 @@ use rayon::ThreadPool;
 use super::error::Error;
 use super::options::Options;
 use super::picture::Picture;
-use crate::base::threads;
+use super::pool::Pool;
 use crate::commands::render::view_warnings;
 use crate::sequence::collector::Collected;
 use crate::sequence::render::render_in_memory;
@@ -28,9 +28,9 @@ const WAITING: usize = 1;
 /// The rendering of some frames of a scene, which goes on while finished pictures are taken. At most a few pictures
 /// wait to be taken. Dropping it ends the work.
 pub struct Rendering {
+    /// Closed when the work has ended.
     pictures: Option<Receiver<Result<Picture, Error>>>,
     cancelled: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
     warnings: Vec<String>,
 }
 
@@ -52,18 +52,25 @@ impl Rendering {
     pub fn begin(scene: &Arc<Scene>, path: &Path, options: &Options) -> Result<Self, Error> {
         let cancelled = Arc::new(AtomicBool::new(false));
         let request = options.request(scene, path, &cancelled)?;
-        let pool = threads::start(options.threads)?;
+        let pool = Pool::take(options.threads)?;
         let warnings = view_warnings(&request, &pool);
         let (sender, pictures) = sync_channel(WAITING);
         let shows_progress = options.progress;
-        let thread = Builder::new()
-            .name("marbles".to_owned())
-            .spawn(move || run(request, &pool, shows_progress, &sender))
-            .map_err(|error| Error::Work(format!("cannot start a thread: {error}")))?;
+        let pool = Arc::new(pool);
+        let own = Arc::clone(&pool);
+        pool.spawn(move || {
+            let work = AssertUnwindSafe(|| run(&request, &own, shows_progress, &sender));
+            if catch_unwind(work).is_err() {
+                let message = "marbles has a fault: a thread panicked";
+                let _ = sender.send(Err(Error::Work(message.to_owned())));
+            }
+            // They go back before whoever waits for the end goes on.
+            drop((request, own));
+            drop(sender);
+        });
         Ok(Self {
             pictures: Some(pictures),
             cancelled,
-            thread: Some(thread),
             warnings,
         })
     }
@@ -90,13 +97,7 @@ impl Rendering {
             Err(RecvTimeoutError::Timeout) => Ok(Next::Waiting),
             Err(RecvTimeoutError::Disconnected) => {
                 self.pictures = None;
-                match self.thread.take().map(JoinHandle::join) {
-                    Some(Err(_panic)) => {
-                        let message = "marbles has a fault: a thread panicked";
-                        Err(Error::Work(message.to_owned()))
-                    }
-                    _ => Ok(Next::End),
-                }
+                Ok(Next::End)
             }
         }
     }
@@ -104,10 +105,9 @@ impl Rendering {
     /// Ends the work, and waits until it has ended: a few milliseconds, or the time that a tile takes.
     pub fn stop(&mut self) {
         self.cancelled.store(true, Ordering::Relaxed);
-        // A thread that would pass a picture on learns that nobody takes it.
-        self.pictures = None;
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
+        if let Some(pictures) = self.pictures.take() {
+            // Pictures that nobody takes: the end comes behind them.
+            while pictures.recv().is_ok() {}
         }
     }
 }
@@ -120,7 +120,7 @@ impl Drop for Rendering {
 
 /// Renders all frames, and passes them on.
 fn run(
-    request: Request,
+    request: &Request,
     pool: &ThreadPool,
     shows_progress: bool,
     sender: &SyncSender<Result<Picture, Error>>,
@@ -134,7 +134,7 @@ fn run(
     let (scene, path): (Arc<Scene>, PathBuf) =
         (Arc::clone(&request.scene), request.scene_path.clone());
     let parts = request.parts.clone();
-    let outcome = render_in_memory(&request, pool, &progress, |collected| {
+    let outcome = render_in_memory(request, pool, &progress, |collected| {
         of_frame.push(collected);
         if of_frame.len() < parts.len() {
             return ControlFlow::Continue(());

@@ -27,6 +27,10 @@ use crate::terminal::progress::Progress;
 /// with wide pictures, and is enough for whole pictures of common sizes.
 const STRIPS_BYTES: u64 = 1 << 27;
 
+/// The number of pictures that wait to be written while another one is. More would not help: in the long run the slower
+/// one of rendering and writing determines the speed.
+const WAITING_PICTURES: usize = 1;
+
 /// The state that the rendering threads and the writer thread share.
 pub(super) struct Pipeline<'a> {
     pub(super) request: &'a Request,
@@ -100,6 +104,23 @@ impl<'a> Pipeline<'a> {
             failures: Failures::new(is_fatal),
             skipped: AtomicU64::new(0),
         })
+    }
+
+    /// The number of pictures that wait to be written while others are.
+    pub(super) fn waiting(&self) -> usize {
+        WAITING_PICTURES * self.together
+    }
+
+    /// Returns whether all pictures stay in memory, are rendered together, and may wait there until they are complete.
+    pub(super) fn holds_all(&self) -> bool {
+        let pieces = self
+            .encoders
+            .iter()
+            .map(|encoder| u64::from(encoder.pieces()));
+        self.request.is_in_memory()
+            && !self.request.scene.has_steps()
+            && self.request.pictures() <= self.waiting() as u64
+            && self.buffer.holds(pieces.sum())
     }
 
     /// Returns whether the work should end.

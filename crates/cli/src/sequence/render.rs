@@ -20,10 +20,6 @@ use crate::base::threads::start_one;
 use crate::terminal::interrupt;
 use crate::terminal::progress::Progress;
 
-/// The number of pictures that wait to be written while another one is. More would not help: in the long run the slower
-/// one of rendering and writing determines the speed.
-const WAITING_PICTURES: usize = 1;
-
 /// Renders and writes all frames in order. Frames that another process is rendering come last, unless they are complete
 /// by then.
 ///
@@ -62,22 +58,31 @@ fn render_to(
     write: impl FnOnce(Receiver<Order>, &Pipeline<'_>) -> Outcome + Send,
 ) -> Result<Outcome, Failure> {
     let pipeline = Pipeline::new(request, threads.current_num_threads(), progress)?;
-    let (sender, receiver) = sync_channel(WAITING_PICTURES * pipeline.together);
-    let written = thread::scope(|scope| -> Result<Outcome, Failure> {
-        let (steps, reading) = Steps::new(request);
-        if let Some(task) = reading {
-            start_one(scope, "reads", || task.run(&request.scene))?;
-        }
-        // The last that may fail: a writer waits for pictures.
-        let writer = start_one(scope, "writes", || write(receiver, &pipeline))?;
+    let (sender, receiver) = sync_channel(pipeline.waiting());
+    let render = |steps| {
         parallel::install(threads, || {
             let _closing = pipeline.buffer.closing();
             let mut source = Source::new(&pipeline, steps, sender);
             workers::run(|| source.next());
         });
-        let written = writer.join();
-        Ok(written.unwrap_or_else(|panic| panic::resume_unwind(panic)))
-    })?;
+    };
+    let written = if pipeline.holds_all() {
+        // To start a thread and to wake it takes as long as to render a small picture.
+        render(Steps::new(request).0);
+        write(receiver, &pipeline)
+    } else {
+        thread::scope(|scope| -> Result<Outcome, Failure> {
+            let (steps, reading) = Steps::new(request);
+            if let Some(task) = reading {
+                start_one(scope, "reads", || task.run(&request.scene))?;
+            }
+            // The last that may fail: a writer waits for pictures.
+            let writer = start_one(scope, "writes", || write(receiver, &pipeline))?;
+            render(steps);
+            let written = writer.join();
+            Ok(written.unwrap_or_else(|panic| panic::resume_unwind(panic)))
+        })?
+    };
     let (pictures, skipped) = (request.pictures(), pipeline.skipped.into_inner());
     let (failed, failure) = pipeline.failures.into_frames();
     Ok(Outcome {

@@ -46,6 +46,11 @@ impl ReorderBuffer {
         }
     }
 
+    /// Returns whether so many pieces may wait here at a time.
+    pub(super) fn holds(&self, pieces: u64) -> bool {
+        pieces <= self.capacity
+    }
+
     /// Waits until the piece with this number may be made, and returns its slot. Returns `None` if the buffer is
     /// closed, or the piece is not needed.
     pub(super) fn admit(&self, number: u64) -> Option<Slot<'_>> {
