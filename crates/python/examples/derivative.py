@@ -1,7 +1,7 @@
 """The derivative of a picture with respect to the position of a ball, with error bars from the claimed errors.
 
-marbles has no derivatives. Differences of pictures do, because the errors of both pictures are known. A ball moves out of the
-picture at the right, where the derivatives of two sums over all pixels are known in closed form.
+marbles computes no derivatives. Differences of pictures replace them, because the errors of both pictures are known. A
+ball leaves the picture at the right edge, so the derivatives of two sums over all pixels are known in closed form.
 
 Needs numpy. Prints a few lines.
 """
@@ -82,7 +82,8 @@ def main(step: float = 5e-3) -> tuple[Sum, Sum]:
     light = -(PER_UNIT**2) * math.pi / 2 * (1 - inside**2)
     coverage, brightness = summed(fine, coarse, 3, chord), summed(fine, coarse, 0, light)
     bar = fine.error[np.abs(fine.value[..., 3]) > 0.01].max()
-    print(f"alpha of single pixels: between {fine.value[..., 3].min():.3f} and {fine.value[..., 3].max():.3f} ± {bar:.1e}")
+    least, most = fine.value[..., 3].min(), fine.value[..., 3].max()
+    print(f"d alpha / dx of single pixels: between {least:.3f} and {most:.3f} ± {bar:.1e}")
     for name, result in (("coverage", coverage), ("light", brightness)):
         print(
             f"d {name} / dx = {result.value:.5f} ± {result.claimed:.5f} (claimed) ± {result.truncated:.5f} (step);"

@@ -22,11 +22,11 @@ class Result:
     off_brightest: float
     """How far the light is off if the highlight is taken to be at the center of the brightest pixel."""
     bound_brightest: float
-    """What this can be at most: the way to the farthest corner of this pixel, seen in the mirror."""
+    """How far the light can be off if the highlight is anywhere in this pixel."""
     off_fit: float
     """How far it is off with a parabola through the pixels around the brightest one."""
     claimed_fit: float
-    """How much of that the claimed errors of the pixels allow; the rest comes from the parabola."""
+    """How much of that the claimed errors of the pixels can cause; the rest comes from the parabola."""
 
 
 def scene(toward: NDArray[np.float64]) -> marbles.Scene:
@@ -41,37 +41,26 @@ def scene(toward: NDArray[np.float64]) -> marbles.Scene:
     )
 
 
-def mirrored(camera: marbles.Camera, pixels: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The direction in which the ball mirrors the view of each point (column, row); (n, 2) to (n, 3)."""
+def normals_at(camera: marbles.Camera, pixels: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The normals of the ball at points (column, row), in the camera's world; (n, 2) to (n, 3)."""
     assert camera.K is not None
     rays = np.column_stack([pixels, np.ones(len(pixels))]) @ np.linalg.inv(camera.K).T @ camera.R
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
-    # The camera is right-handed: there, the z of the scene is negated.
+    # This world is right-handed: the z of the scene is negated.
     way = camera.position - CENTER * (1, 1, -1)
     along = rays @ way
-    depth = -along - np.sqrt(along**2 - way @ way + RADIUS**2)
-    normals = (way + depth[:, None] * rays) / RADIUS
-    reflected: NDArray[np.float64] = rays - 2 * np.sum(rays * normals, axis=1, keepdims=True) * normals
-    return reflected
+    distance = -along - np.sqrt(along**2 - way @ way + RADIUS**2)
+    normals: NDArray[np.float64] = (way + distance[:, None] * rays) / RADIUS
+    return normals
 
 
-def highlight(picture: marbles.Picture) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """The brightest pixel, the top of the parabola (both column, row), and how far claims allow it to be off."""
-    light, error = picture.light[..., 0], picture.error
-    row, col = np.unravel_index(np.argmax(light), light.shape)
-    rows, cols = (offsets.ravel() for offsets in np.mgrid[-2:3, -2:3])
-    around = (row + rows, col + cols)
-    # The logarithm of (n·h)^shininess is nearly a parabola.
-    terms = np.column_stack([np.ones(25), cols, rows, cols**2 / 2, cols * rows, rows**2 / 2])
-    inverse = np.linalg.pinv(terms)
-    _, *slope, xx, xy, yy = inverse @ np.log(light[around])
-    to_top = -np.linalg.inv(np.array([[xx, xy], [xy, yy]]))
-    brightest = np.array([col, row], float)
-    # The largest change of the slope at the top that the errors of all pixels can cause together.
-    top = to_top @ slope
-    moved = inverse[1:3] + [inverse[3] * top[0] + inverse[4] * top[1], inverse[4] * top[0] + inverse[5] * top[1]]
-    off: NDArray[np.float64] = np.abs(to_top @ moved) @ (error[around] / light[around])
-    return brightest, brightest + top, off
+def mirrored(camera: marbles.Camera, normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The directions in which the camera sees the ball mirror its surroundings; (n, 3) to (n, 3)."""
+    normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    rays = CENTER * (1, 1, -1) + RADIUS * normals - camera.position
+    rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+    directions: NDArray[np.float64] = rays - 2 * np.sum(rays * normals, axis=1, keepdims=True) * normals
+    return directions
 
 
 def degrees(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
@@ -81,20 +70,38 @@ def degrees(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
 
 def main(toward: NDArray[np.float64] = TOWARD) -> Result:
     picture = scene(toward).render(1e-6)
-    truth = toward * (1, 1, -1) / np.linalg.norm(toward)
-    brightest, top, off = highlight(picture)
-    from_brightest, from_top = mirrored(picture.camera, np.array([brightest, top]))
+    light, camera = picture.light[..., 0], picture.camera
+    row, col = np.unravel_index(np.argmax(light), light.shape)
     corners = np.array([(x, y) for x in (-1, 1) for y in (-1, 1)])
+    brightest = mirrored(camera, normals_at(camera, np.array([(col, row), *((col, row) + corners / 2)])))
+
+    # The logarithm of the light, (n·h)^shininess, is nearly a parabola over the plane that touches the ball there.
+    rows, cols = (offsets.ravel() for offsets in np.mgrid[-2:3, -2:3])
+    around = (row + rows, col + cols)
+    normals = normals_at(camera, np.column_stack([col + cols, row + rows]))
+    middle = normals[12]
+    plane = np.linalg.svd(middle[None])[2][1:]
+    x, y = (normals / (normals @ middle)[:, None] @ plane.T).T
+    inverse = np.linalg.pinv(np.column_stack([np.ones(25), x, y, x**2 / 2, x * y, y**2 / 2]))
+    _, *slope, xx, xy, yy = inverse @ np.log(light[around])
+    to_top = -np.linalg.inv([[xx, xy], [xy, yy]])
+    top = to_top @ slope
+    # If the logarithms are off by as much as is claimed, the slope at the top is not quite zero.
+    slopes = inverse[1:3] + np.array([top @ inverse[3:5], top @ inverse[4:6]])
+    off = np.abs(to_top @ slopes) @ (picture.error[around] / light[around])
+    found, *others = mirrored(camera, middle + np.array([top, *(top + corners * off)]) @ plane)
+
+    truth = toward * (1, 1, -1) / np.linalg.norm(toward)
     result = Result(
-        off_brightest=degrees(from_brightest, truth),
-        bound_brightest=degrees(mirrored(picture.camera, brightest + corners / 2), from_brightest),
-        off_fit=degrees(from_top, truth),
-        claimed_fit=degrees(mirrored(picture.camera, top + corners * off), from_top),
+        off_brightest=degrees(brightest[0], truth),
+        bound_brightest=degrees(brightest[1:], brightest[0]),
+        off_fit=degrees(found, truth),
+        claimed_fit=degrees(np.array(others), found),
     )
-    x, y, z = from_top * (1, 1, -1)
-    print(f"the highlight is at column {top[0]:.3f}, row {top[1]:.3f}; the light is toward ({x:.5f}, {y:.5f}, {z:.5f})")
+    x, y, z = found * (1, 1, -1)
+    print(f"the light is toward ({x:.5f}, {y:.5f}, {z:.5f})")
     print(f"brightest pixel: off by {result.off_brightest:.2f} degrees, at most {result.bound_brightest:.2f}")
-    print(f"parabola: off by {result.off_fit:.5f} degrees, {result.claimed_fit:.5f} of it at most from errors of pixels")
+    print(f"parabola: off by {result.off_fit:.5f} degrees; errors of pixels cause at most {result.claimed_fit:.5f}")
     return result
 
 

@@ -23,7 +23,7 @@ def knot(turn: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([x, y, -np.sin(3 * angle)], axis=-1)
 
 
-def main(path: Path = Path("many_spheres.png"), count: int = COUNT) -> marbles.Picture:
+def main(path: Path = Path("many_spheres.png"), *, count: int = COUNT) -> marbles.Picture:
     random = np.random.default_rng(seed=1)
     turn = random.random(count)
     from_knot = random.normal(size=(count, 3)) * 0.16
@@ -31,15 +31,16 @@ def main(path: Path = Path("many_spheres.png"), count: int = COUNT) -> marbles.P
         center=knot(turn) + from_knot,
         radius=0.012 + 0.03 * random.random(count) ** 3,
         value=np.linalg.norm(from_knot, axis=1),
-        colormap="Inferno",
-        range=(0.5, 0),
+        colormap="Plasma",
+        range=(0.1, 0.6),
     )
     scene = marbles.Scene(
         image={"width": 640, "height": 640},
         lens=marbles.Fov(30),
         camera=marbles.Frame(fill=0.95),
-        ambient=0.15,
-        lights=[marbles.Directional((-1, 2, -1.5), 0.95)],
+        ambient=0.3,
+        background="#101820",
+        lights=[marbles.Directional((-1, 1.5, -1.5), 1.3)],
         spheres=spheres,
     )
     picture = scene.render(1e-2)

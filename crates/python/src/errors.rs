@@ -7,13 +7,13 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 create_exception!(
-    _native,
+    marbles,
     SceneError,
     PyValueError,
     "A scene, or a table of it, that is refused."
 );
 create_exception!(
-    _native,
+    marbles,
     RenderError,
     PyRuntimeError,
     "A rendering that failed."

@@ -5,10 +5,12 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import marbles
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parents[3]
 SCENES = sorted((ROOT / "scenes").rglob("*.ron"))
@@ -39,7 +41,7 @@ def ball(**fields: object) -> marbles.Scene:
     return marbles.Scene(**(values | fields))  # type: ignore[arg-type]
 
 
-def same(a: np.ndarray, b: np.ndarray) -> bool:
+def same(a: NDArray[Any], b: NDArray[Any]) -> bool:
     """Whether two arrays are the same bit for bit."""
     return a.shape == b.shape and a.dtype == b.dtype and a.tobytes() == b.tobytes()
 

@@ -129,7 +129,7 @@ def test_warnings_point_at_the_caller() -> None:
         scene = ball(materials={"candy": {}, "unused": {}})
     assert caught[0].filename == str(Path(__file__).with_name("conftest.py"))
     with pytest.warns(marbles.SceneWarning) as caught:
-        scene.replace(ambient=0.2)
+        scene.replace(materials={"candy": {}, "other": {}})
     assert caught[0].filename == __file__
     assert any("unused" in text for text in scene.warnings)
     with warnings.catch_warnings():

@@ -16,3 +16,6 @@ pub use save::SaveOptions;
 
 pub use crate::formats::npy::given::GivenNumbers;
 pub use crate::formats::npy::memory::Numbers;
+
+#[cfg(test)]
+mod tests;

@@ -9,6 +9,7 @@ use marbles_core::{Method, Settings, Window};
 use marbles_scene::Scene;
 
 use super::error::Error;
+use crate::base::failure::Failure;
 use crate::base::size::{LONGEST_SIDE, Size};
 use crate::commands::scene::require_frames;
 use crate::formats::center_channels::{
@@ -137,7 +138,14 @@ impl Options {
             destination: Destination::Memory(Arc::clone(cancelled)),
         };
         for frame in request.frames.iter() {
-            request.check(frame)?;
+            request
+                .check(frame)
+                .map_err(|failure| match (self.region, failure) {
+                    (Some(_), Failure::Usage(message)) => {
+                        Error::Value(format!("region: {message}"))
+                    }
+                    (_, failure) => failure.into(),
+                })?;
         }
         Ok(request)
     }

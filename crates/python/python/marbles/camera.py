@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +30,25 @@ class Camera:
     """Only for a parallel lens, whose pixel is pixels_per_unit · (x, y)_camera + principal_point."""
     principal_point: NDArray[np.float64] | None = None
     """Only for a parallel lens: (2,), in pixels."""
+
+    def project(self, points: ArrayLike) -> NDArray[np.float64]:
+        """The pixels that see points of the scene, as (column, row); (0, 0) is the center of the first pixel.
+
+        Args:
+            points: (n, 3) or (3,), in the axes of the scene: x right, y up, z forward.
+
+        Returns:
+            (n, 2) or (2,). NaN for points that are not in front of the viewpoint.
+        """
+        given = np.asarray(points, np.float64)
+        if given.shape[-1:] != (3,):
+            raise ValueError(f"points: expected the shape (n, 3) or (3,), found {given.shape}")
+        x, y, z = np.moveaxis(given * (1, 1, -1) @ self.R.T + self.t, -1, 0)
+        if self.K is None:
+            assert self.pixels_per_unit is not None and self.principal_point is not None
+            return np.stack((x, y), -1) * self.pixels_per_unit + self.principal_point
+        depth = np.where(z > 0, z, np.nan)
+        return np.stack((x / depth, y / depth), -1) * self.K[[0, 1], [0, 1]] + self.K[:2, 2]
 
 
 def camera_of(sidecar: Mapping[str, Any]) -> Camera:

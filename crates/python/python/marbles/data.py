@@ -6,7 +6,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Sequence
-from typing import Literal
+from typing import Literal, TypeAlias, get_args
 
 from . import _native
 from .options import whole, whole_numbers
@@ -14,12 +14,14 @@ from .options import whole, whole_numbers
 # Exit codes of the command.
 _COMPLETE, _OVER, _INTERRUPTED = 0, 3, 130
 
+Layout: TypeAlias = Literal["diligent", "luces"]
+
 
 def dataset(
     scene_path: str | os.PathLike[str],
     output: str | os.PathLike[str],
     *,
-    layout: Literal["diligent", "luces"],
+    layout: Layout,
     frame: int | None = None,
     tolerance: float | None = None,
     size: Sequence[int] | None = None,
@@ -48,9 +50,12 @@ def dataset(
         Whether every pixel is within the tolerance.
 
     Raises:
+        ValueError: An option that cannot be.
         RenderError: The command failed; the message is its own, or on stderr with `progress`.
         KeyboardInterrupt: The command was interrupted.
     """
+    if layout not in get_args(Layout):
+        raise ValueError(f"layout: expected one of {', '.join(get_args(Layout))}, found {layout!r}")
     arguments = [sys.executable, "-m", "marbles", "dataset", f"--output={os.fspath(output)}", f"--layout={layout}"]
     if frame is not None:
         arguments.append(f"--frame={whole(frame, 'frame', -(2**31), 2**31 - 1)}")

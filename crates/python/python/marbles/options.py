@@ -27,8 +27,11 @@ class Options(TypedDict):
     progress: bool
 
 
+DEFAULT_TOLERANCE = 1e-3
+
+
 def checked(
-    tolerance: float,
+    tolerance: float | None,
     *,
     samples: int | None,
     channels: Iterable[str] | str,
@@ -42,6 +45,10 @@ def checked(
     progress: bool,
 ) -> Options:
     """The options as keywords. Raises TypeError and ValueError with the name of the option."""
+    if tolerance is not None and samples is not None:
+        raise ValueError(f"samples: expected no `tolerance` beside it, found {tolerance!r}")
+    if tolerance is None:
+        tolerance = DEFAULT_TOLERANCE
     names = channels.split(",") if isinstance(channels, str) else list(channels)
     if not all(isinstance(name, str) for name in names):
         raise TypeError("channels: expected names such as 'depth', found something else")

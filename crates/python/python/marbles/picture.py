@@ -135,20 +135,25 @@ class Picture:
 
         Raises:
             ValueError: Options that do not go with the format, or an unknown format.
-            RenderError: The file cannot be written.
+            OSError: The file cannot be written.
         """
         if bits is not None and bits not in (8, 16):
             raise ValueError(f"bits: expected 8 or 16, found {bits!r}")
-        self._native.save(
-            os.fspath(path),
-            bits=bits,
-            linear=linear,
-            exposure=exposure,
-            rgb=rgb,
-            float=float,
-            error=error,
-            sidecar=sidecar,
-        )
+        try:
+            self._native.save(
+                os.fspath(path),
+                bits=bits,
+                linear=linear,
+                exposure=exposure,
+                rgb=rgb,
+                float=float,
+                error=error,
+                sidecar=sidecar,
+            )
+        except ValueError as refused:
+            # The options of the command have the names of arguments.
+            message = str(refused).replace("--error-channel", "error").replace("--", "")
+            raise ValueError(message) from None
 
     def to_srgb(self) -> NDArray[np.uint8]:
         """The codes of the 8-bit PNG: (height, width, 3), or (height, width, 4) with straight alpha."""

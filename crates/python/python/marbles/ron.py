@@ -39,6 +39,9 @@ CHOICES = frozenset(
     }
 )
 
+# Fields that are colors.
+COLORS = frozenset({"albedo", "ambient", "background", "color", "intensity"})
+
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 _CHOICE = re.compile(r"[A-Z][A-Za-z0-9_]*", re.ASCII)
 _UNSAFE = re.compile(r'["\\\x00-\x1f\x7f]')
@@ -119,6 +122,9 @@ def _write(value: object, field: str, path: str, depth: int) -> str:
     if depth > _DEEPEST:
         raise ValueError(f"{path}: expected at most {_DEEPEST} levels, found more")
     if isinstance(value, (np.ndarray, np.generic)):
+        if value.dtype == np.uint8 and field in COLORS and value.shape == (3,):
+            # As everywhere: bytes are sRGB codes.
+            return f'"#{value.tobytes().hex()}"'
         if value.dtype.kind not in "biufUO":
             raise TypeError(f"{path}: expected numbers or texts, found {value.dtype}")
         value = value.tolist()

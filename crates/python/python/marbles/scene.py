@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias, Union
@@ -15,7 +16,7 @@ from . import _native, draft, files
 from .camera import Camera, camera_of
 from .cloud import Spheres
 from .draft import Draft
-from .faults import python_paths, warn
+from .faults import SceneWarning, python_paths, warn
 from .options import Axes, Depth, checked, whole
 from .picture import Picture
 from .sequence import Frames
@@ -56,11 +57,12 @@ class Scene:
         TypeError, ValueError: A value that no scene can have; the message begins with its place.
     """
 
-    __slots__ = ("_draft", "_file", "_native")
+    __slots__ = ("_draft", "_file", "_is_file", "_native")
 
     _draft: Draft
     _file: str
     _native: _native.Scene
+    _is_file: bool
 
     def __init__(
         self,
@@ -88,6 +90,10 @@ class Scene:
 
     def __setattr__(self, name: str, value: object) -> NoReturn:
         raise AttributeError("a scene cannot be changed: `scene.replace(…)` makes another one")
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # The text and the tables: another process reads them again.
+        return _again, (self._draft, self._file, self._is_file)
 
     def __repr__(self) -> str:
         width, height = self.size
@@ -138,7 +144,8 @@ class Scene:
         Raises:
             SceneError, TypeError, ValueError: As for a new scene.
         """
-        return _fill(Scene.__new__(Scene), draft.replaced(self._draft, fields), self._file, is_file=False, stacklevel=3)
+        made = draft.replaced(self._draft, fields)
+        return _fill(Scene.__new__(Scene), made, self._file, is_file=False, stacklevel=3, known=self.warnings)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the scene in RON, and its arrays of spheres as NAME_spheres.npy beside it.
@@ -150,7 +157,7 @@ class Scene:
 
     def render(
         self,
-        tolerance: float = 1e-3,
+        tolerance: float | None = None,
         *,
         samples: int | None = None,
         frame: int | None = None,
@@ -167,7 +174,7 @@ class Scene:
         """Renders a frame. Its pixels are to the bit those of the command.
 
         Args:
-            tolerance: The largest error of every channel of every pixel, absolute, in linear light.
+            tolerance: The largest error of every channel of every pixel, absolute, in linear light; 1e-3 by default.
             samples: samples² rays per pixel instead, whatever the error.
             frame: The number of the frame; by default the first one of the animation, or 1.
             channels: `depth`, `normal`, `position`, `albedo`, `id`, `mask` of the ray through the center of each pixel;
@@ -199,7 +206,7 @@ class Scene:
 
     def frames(
         self,
-        tolerance: float = 1e-3,
+        tolerance: float | None = None,
         *,
         frames: Iterable[int] | None = None,
         samples: int | None = None,
@@ -228,8 +235,13 @@ class Scene:
         if frames is None:
             first, last = self.frame_range or (1, 1)
             frames = range(first, last + 1)
-        numbers = [self._frame(frame, f"frames[{index}]") for index, frame in enumerate(frames)]
-        return Frames(self._native, numbers, options)
+        numbers: dict[int, None] = {}
+        for index, frame in enumerate(frames):
+            number = self._frame(frame, f"frames[{index}]")
+            if number in numbers:
+                raise ValueError(f"frames[{index}]: expected each frame once, found {number} again")
+            numbers[number] = None
+        return Frames(self._native, list(numbers), options)
 
     def spheres_table(self, frame: int | None = None) -> dict[str, NDArray[Any]]:
         """The spheres of a frame, in the order of the channel `id`, as columns of a table, such as a DataFrame.
@@ -253,17 +265,29 @@ class Scene:
         return first if frame is None else whole(frame, name, first, last)
 
 
-def _fill(scene: Scene, made: Draft, file: str, *, is_file: bool, stacklevel: int) -> Scene:
-    """Reads a scene's text; faults of what is no file are told with the paths of Python."""
+def _fill(
+    scene: Scene, made: Draft, file: str, *, is_file: bool, stacklevel: int, known: Sequence[str] = ()
+) -> Scene:
+    """Reads a scene's text; faults of what is no file are told with the paths of Python.
+
+    Warnings that are `known` are not issued again.
+    """
     if is_file:
         native = _native.Scene.parse(made.text, file, {})
     else:
         with python_paths(made.rename, made.paths()):
             native = _native.Scene.parse(made.text, file, made.files())
-    for name, value in (("_draft", made), ("_file", file), ("_native", native)):
+    for name, value in (("_draft", made), ("_file", file), ("_native", native), ("_is_file", is_file)):
         object.__setattr__(scene, name, value)
-    warn(native.warnings, stacklevel)
+    warn([message for message in native.warnings if message not in known], stacklevel)
     return scene
+
+
+def _again(made: Draft, file: str, is_file: bool) -> Scene:
+    """A scene that was copied or sent to another process. Its warnings were issued."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SceneWarning)
+        return _fill(Scene.__new__(Scene), made, file, is_file=is_file, stacklevel=3)
 
 
 def load(path: str | os.PathLike[str]) -> Scene:
@@ -274,6 +298,9 @@ def load(path: str | os.PathLike[str]) -> Scene:
         OSError: The file cannot be read.
     """
     file = os.path.abspath(path)
+    with open(file, "rb"):
+        # What cannot be opened is told as Python tells it.
+        pass
     text = _native.to_ron(_native.scene_text(file))
     return _fill(Scene.__new__(Scene), Draft(text), file, is_file=True, stacklevel=3)
 
