@@ -27,6 +27,7 @@ pub(crate) fn encoding(arguments: &RenderArguments, format: Format) -> Result<En
             &["PNG", "TIFF", "GIF", "WebP"],
         ),
         (arguments.float, "--float", &["EXR", "TIFF"]),
+        (arguments.half, "--half", &["EXR"]),
         (
             arguments.error_channel,
             "--error-channel",
@@ -85,7 +86,7 @@ pub(crate) fn encoding(arguments: &RenderArguments, format: Format) -> Result<En
         Format::Animation(format) => Encoding::Animation(format, png),
         Format::Exr => Encoding::Exr(ExrOptions {
             // Many readers convert all channels to the type of the first.
-            float: arguments.float || !arguments.channels.is_empty(),
+            float: arguments.float || !arguments.channels.is_empty() && !arguments.half,
             error: arguments.error_channel,
         }),
         Format::Npy | Format::Npz => Encoding::Npy(NpyOptions {

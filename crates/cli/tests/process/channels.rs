@@ -172,6 +172,11 @@ fn all_channels_but_numbers_of_spheres_are_floats() {
             assert_eq!(is_float, !name.ends_with("id"), "{options}: {name}");
         }
     }
+    let small = render(&folder, "balls.ron --channels depth,id --half");
+    for (name, values) in small {
+        let is_half = matches!(values, FlatSamples::F16(_));
+        assert_eq!(is_half, ["R", "G", "B"].contains(&&*name), "{name}");
+    }
     let plain = render(&folder, "balls.ron");
     assert!(
         plain

@@ -15,10 +15,19 @@ fn a_data_set_has_the_files_that_its_readers_expect() {
         "{lines}"
     );
     let expected = "001.png 002.png 003.png Normal_gt.mat Normal_gt.png filenames.txt \
-                    light_directions.txt light_intensities.txt mask.png normal.txt";
+                    light_directions.txt light_intensities.txt mask.png names.txt normal.png normal.txt";
     assert_eq!(folder.names("set").join(" "), expected);
     let read = |name: &str| fs::read_to_string(folder.path("set").join(name)).unwrap();
     assert_eq!(read("filenames.txt"), "001.png\n002.png\n003.png\n");
+    assert_eq!(read("names.txt"), read("filenames.txt"));
+    // The depth in bits is the 25th byte of a PNG.
+    for (name, bits) in [("Normal_gt.png", 16), ("normal.png", 8)] {
+        assert_eq!(
+            fs::read(folder.path("set").join(name)).unwrap()[24],
+            bits,
+            "{name}"
+        );
+    }
     // White is 0.5 at most: all light is doubled, and so is what is left of the tolerance.
     assert_eq!(
         read("light_intensities.txt"),
@@ -284,6 +293,36 @@ fn light_near_the_tolerance_is_told() {
         let output = folder.run(&format!("{command} --strict"));
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     }
+}
+
+#[test]
+fn a_list_of_lights_has_the_directions_of_the_pictures() {
+    let folder = folder();
+    let lights = "Directional(toward: (-1, 0, 0)), Directional(toward: (0, 2, 0)), Directional(toward: (-4, 0, -3))";
+    fs::write(folder.path("dome.ron"), beside(lights)).unwrap();
+    run(&folder, "dataset dome.ron -o set --layout lp --size 20x15");
+    let expected = "001.png 002.png 003.png Normal_gt.png filenames.txt lights.lp mask.png";
+    assert_eq!(folder.names("set").join(" "), expected);
+    let list = fs::read_to_string(folder.path("set/lights.lp")).unwrap();
+    let lines: Vec<&str> = list.lines().collect();
+    assert_eq!((lines.len(), lines[0]), (4, "3"));
+    // The camera looks along +x, and its right is -z.
+    let expected = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.6, 0.0, 0.8]];
+    for (index, (line, expected)) in lines[1..].iter().zip(expected).enumerate() {
+        let words: Vec<&str> = line.split(' ').collect();
+        assert_eq!(words[0], format!("{:03}.png", index + 1));
+        for (word, expected) in words[1..].iter().zip(expected) {
+            let number: f64 = word.parse().unwrap();
+            assert!((number - expected).abs() < 1e-15, "{line}");
+        }
+    }
+
+    // The list has no brightness.
+    let output = folder.run("dataset all.ron -o other --layout lp");
+    let message = text(&output.stderr);
+    assert_eq!(code(&output), 2, "{message}");
+    let expected = "the layout lp needs lights of the same intensity, but light 2 of the scene has another one";
+    assert!(message.contains(expected), "{message}");
 }
 
 /// If files have names of a data set, but no data set belongs to them, they are somebody else's.

@@ -14,7 +14,7 @@ from .options import whole, whole_numbers
 # Exit codes of the command.
 _COMPLETE, _OVER, _INTERRUPTED = 0, 3, 130
 
-Layout: TypeAlias = Literal["diligent", "luces"]
+Layout: TypeAlias = Literal["diligent", "luces", "lp"]
 
 
 def dataset(
@@ -36,7 +36,7 @@ def dataset(
     Args:
         scene_path: The scene file.
         output: The folder for the files.
-        layout: `"diligent"` for distant lights, `"luces"` for near ones.
+        layout: `"diligent"` for distant lights, `"luces"` for near ones, `"lp"` for a list of distant lights.
         frame: The frame of the scene; the first by default.
         tolerance: The largest error before rounding, as a share of the largest code; 1e-4 by default.
         size: (width, height) of the pictures in pixels instead of the scene's.

@@ -14,6 +14,7 @@ Examples:
   marbles dataset studio.ron -o studio --layout diligent
   marbles dataset studio.ron -o studio --layout diligent --skip-existing   resume an interrupted run
   marbles dataset lamps.ron -o lamps --layout luces
+  marbles dataset dome.ron -o dome --layout lp
 
 Files of the layout `diligent`, in the axes of the camera (x right, y up, z toward the viewer):
   001.png, 002.png, …   a picture of each light alone, without ambient light and background: 16 bits,
@@ -26,7 +27,8 @@ Files of the layout `diligent`, in the axes of the camera (x right, y up, z towa
   Normal_gt.mat         the normals of these pixels, as an array `Normal_gt` of doubles,
                         height × width × 3
   normal.txt            the same normals as text, row by row, three numbers per line
-  Normal_gt.png         the same normals as a picture
+  Normal_gt.png         the same normals as a picture with 16 bits
+  normal.png, names.txt  the same normals with 8 bits, and the names of the pictures once more
 
 Files of the layout `luces`, for point lights whose light falls off with the square of the distance:
   01.png, 02.png, …     the pictures, as above
@@ -40,6 +42,12 @@ Files of the layout `luces`, for point lights whose light falls off with the squ
   light_directions.txt  directions toward the lights at the mean distance
   light_intensities.txt  intensities of the lights at the mean distance
   filenames.txt         the names of the pictures
+
+Files of the layout `lp`, for directional lights of the same intensity:
+  001.png, 002.png, …   the pictures, as above
+  lights.lp             the number of pictures; then the name of each, and the unit vector toward its
+                        light: x right, y up, z toward the viewer
+  filenames.txt, mask.png, Normal_gt.png  as above
 
 Exit codes:
   0  everything is written, and every pixel is within the tolerance
@@ -55,6 +63,8 @@ pub(crate) enum LayoutForm {
     Diligent,
     /// Like LUCES, for near lights
     Luces,
+    /// A list of lights for RTI, for distant lights of the same intensity
+    Lp,
 }
 
 /// Write a data set for photometric stereo: a picture of each light, and the true normals

@@ -164,6 +164,10 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) float: bool,
 
+    /// Write the light of an EXR in half precision, also with --channels, which have single precision
+    #[arg(long, conflicts_with = "float")]
+    pub(crate) half: bool,
+
     /// Also store the error of each pixel: in a channel `error` of an EXR, in single precision; for
     /// NAME.npy in a file NAME_error.npy, and in an array `error` of an NPZ, in double precision
     #[arg(long)]

@@ -3,6 +3,7 @@
 mod centers;
 mod diligent;
 mod lines;
+mod lp;
 mod luces;
 mod mark;
 #[cfg(test)]
@@ -83,6 +84,7 @@ const PICTURES: &str = "filenames.txt";
 enum Layout {
     Diligent(Vec<DirectionalLight>),
     Luces(Vec<PointLight>),
+    Lp(Vec<DirectionalLight>),
 }
 
 impl Layout {
@@ -90,7 +92,8 @@ impl Layout {
     fn new(arguments: &DatasetArguments, view: &View, lights: &[Light]) -> Result<Self, Failure> {
         let scene = &arguments.scene;
         Ok(match arguments.layout {
-            LayoutForm::Diligent => Self::Diligent(diligent::lights(scene, lights)?),
+            LayoutForm::Diligent => Self::Diligent(diligent::lights(scene, "diligent", lights)?),
+            LayoutForm::Lp => Self::Lp(lp::lights(scene, lights)?),
             LayoutForm::Luces => {
                 luces::check_lens(scene, view)?;
                 Self::Luces(luces::lights(scene, lights)?)
@@ -103,13 +106,14 @@ impl Layout {
         match self {
             Self::Diligent(_) => "diligent",
             Self::Luces(_) => "luces",
+            Self::Lp(_) => "lp",
         }
     }
 
     /// The smallest number of digits in the name of a picture.
     fn digits(&self) -> usize {
         match self {
-            Self::Diligent(_) => 3,
+            Self::Diligent(_) | Self::Lp(_) => 3,
             Self::Luces(_) => 2,
         }
     }
@@ -119,6 +123,7 @@ impl Layout {
         let names: &[&str] = match self {
             Self::Diligent(_) => &diligent::NAMES,
             Self::Luces(_) => &luces::NAMES,
+            Self::Lp(_) => &lp::NAMES,
         };
         let beside = names.iter().chain([&mark::MASK, &PICTURES]);
         let frame = request.frames.first();
@@ -141,16 +146,21 @@ impl Layout {
         let centers = parallel::install(pool, || Centers::of(&renderer(), view));
         let folder = &arguments.output;
         let names = folder.join(PICTURES);
+        let pictures = || file_names(request.parts.len(), self.digits());
         let write_first = || {
             prepare(&names)?;
             // What comes after it is known as marbles' own by it.
             centers.write_mask(&folder.join(mark::MASK), mark::of(self.name()))?;
-            write_lines(&names, file_names(request.parts.len(), self.digits()))
+            write_lines(&names, pictures())
         };
         match self {
             Self::Diligent(lights) => {
                 write_first()?;
-                diligent::write(folder, view, (lights, gain), &centers)
+                diligent::write(folder, view, (lights, gain), &centers, pictures())
+            }
+            Self::Lp(lights) => {
+                write_first()?;
+                lp::write(folder, view, lights, &centers, pictures())
             }
             Self::Luces(lights) => {
                 let mean_distance = luces::mean_distance(&arguments.scene, &centers)?;

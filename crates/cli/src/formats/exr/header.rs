@@ -47,6 +47,9 @@ pub(super) fn header_of(size: Size, channels: Vec<(&str, SampleType)>) -> Header
         .with_attributes(LayerAttributes::default())
 }
 
+/// The name of linear light with Rec. 709 primaries, in the list of the Color Interop Forum.
+const COLORS: &str = "lin_rec709_scene";
+
 /// The attributes with the metadata of a picture.
 pub(super) fn attributes(facts: &Facts) -> LayerAttributes {
     let mut attributes = LayerAttributes {
@@ -57,6 +60,8 @@ pub(super) fn attributes(facts: &Facts) -> LayerAttributes {
     };
     let mut custom = |name: &str, value| attributes.other.insert(Text::from(name), value);
     custom("frame", AttributeValue::I32(facts.frame));
+    let colors = AttributeValue::Text(Text::from(COLORS));
+    custom("colorInteropID", colors);
     let digest = Text::from(&*facts.digest.to_hex());
     custom(DIGEST_ATTRIBUTE, AttributeValue::Text(digest));
     // They are known when the blocks are.

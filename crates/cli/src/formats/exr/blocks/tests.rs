@@ -143,6 +143,8 @@ fn the_header_tells_the_facts() {
     let custom = |name: &str| attributes.other.get(&Text::from(name));
     assert_eq!(custom("samples"), Some(&AttributeValue::I32(1)));
     assert_eq!(custom("frame"), Some(&AttributeValue::I32(-7)));
+    let colors = AttributeValue::Text("lin_rec709_scene".into());
+    assert_eq!(custom("colorInteropID"), Some(&colors));
     let summary = image.summary();
     for (name, expected) in [
         ("error", summary.largest_error),
