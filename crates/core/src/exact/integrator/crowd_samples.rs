@@ -95,48 +95,67 @@ impl<'scene> CrowdSamples<'scene> {
             self.view.height.div_ceil(Tile::SIDE),
         );
         let step = ((u64::from(columns) * u64::from(rows) / PROBES) as f64).sqrt() as usize + 1;
+        let tiles = |step: usize| {
+            let starts = move |count: u32| (0..count).skip(step / 2).step_by(step);
+            starts(rows).flat_map(move |row| {
+                starts(columns).map(move |column| Tile {
+                    col: column * Tile::SIDE,
+                    row: row * Tile::SIDE,
+                    width: Tile::SIDE,
+                    height: Tile::SIDE,
+                })
+            })
+        };
         let mut scratch = raster::Scratch::default();
-        for probe in PROBING {
-            let mut costs = [0.0; SIDES.len()];
-            let mut of_edges = 0.0;
-            for row in (0..rows).skip(step / 2).step_by(step) {
-                for column in (0..columns).skip(step / 2).step_by(step) {
-                    let tile = Tile {
-                        col: column * Tile::SIDE,
-                        row: row * Tile::SIDE,
-                        width: Tile::SIDE,
-                        height: Tile::SIDE,
-                    };
-                    let Some(judged) = self.raster.pixels(tile, probe, &mut scratch) else {
-                        continue;
-                    };
-                    let balls = Raster::balls_seen(probe, &scratch);
-                    for (judged, balls) in judged.iter().zip(balls) {
-                        let edges = self.cost_of_edges(balls);
-                        of_edges += edges;
-                        for (cost, side) in costs.iter_mut().zip(SIDES) {
-                            *cost += OF_RASTER + f64::from(side * side);
-                            let finer = f64::from(probe) / f64::from(side);
-                            let error = judged.error * deviations(side) * libm::pow(finer, POWER);
-                            if error > self.tolerance {
-                                *cost += edges;
-                            }
-                        }
+        let first = PROBING.into_iter();
+        let mut probed = first.map(|probe| self.probe(probe, tiles(step), &mut scratch));
+        let mut found = probed.find(|found| found.edges > 0.0)?;
+        // What few samples tell of more is little: with as many, more balls are seen, and pixels fail that seemed to be met.
+        while let Some((side, _)) = found.least()
+            && side > found.probe
+        {
+            // A quarter of the tiles, as each takes longer.
+            let finer = self.probe(side, tiles(2 * step), &mut scratch);
+            if finer.edges == 0.0 {
+                break;
+            }
+            found = finer;
+        }
+        let (side, cost) = found.least()?;
+        (cost < found.edges).then_some(side)
+    }
+
+    /// What the picture is thought to take, from these tiles with so many samples on a side of a pixel.
+    fn probe(
+        &self,
+        probe: u32,
+        tiles: impl Iterator<Item = Tile>,
+        scratch: &mut raster::Scratch,
+    ) -> Probed {
+        let mut found = Probed {
+            probe,
+            costs: [0.0; SIDES.len()],
+            edges: 0.0,
+        };
+        for tile in tiles {
+            let Some(judged) = self.raster.pixels(tile, probe, scratch) else {
+                continue;
+            };
+            let balls = Raster::balls_seen(probe, scratch);
+            for (judged, balls) in judged.iter().zip(balls) {
+                let edges = self.cost_of_edges(balls);
+                found.edges += edges;
+                for (cost, side) in found.costs.iter_mut().zip(SIDES) {
+                    *cost += OF_RASTER + f64::from(side * side);
+                    let finer = f64::from(probe) / f64::from(side);
+                    let error = judged.error * deviations(side) * libm::pow(finer, POWER);
+                    if error > self.tolerance {
+                        *cost += edges;
                     }
                 }
             }
-            if of_edges > 0.0 {
-                let sides = SIDES
-                    .into_iter()
-                    .zip(costs)
-                    .filter(|(side, _)| *side >= probe);
-                let least = sides.min_by(|one, other| one.1.total_cmp(&other.1));
-                return least
-                    .filter(|(_, cost)| *cost < of_edges)
-                    .map(|(side, _)| side);
-            }
         }
-        None
+        found
     }
 
     /// The time that the edges of a pixel take which sees so many balls, in samples.
@@ -150,6 +169,25 @@ impl<'scene> CrowdSamples<'scene> {
             95.0
         };
         of_pair * (balls * balls.saturating_sub(1)) as f64
+    }
+}
+
+/// What some tiles tell about the time that a picture takes, in samples.
+struct Probed {
+    /// The samples on a side of a pixel of these tiles.
+    probe: u32,
+    /// With each of [`SIDES`].
+    costs: [f64; SIDES.len()],
+    /// Without a raster.
+    edges: f64,
+}
+
+impl Probed {
+    /// The number of samples that takes the least time, none less than the tiles had, and this time.
+    fn least(&self) -> Option<(u32, f64)> {
+        let sides = SIDES.into_iter().zip(self.costs);
+        let sides = sides.filter(|(side, _)| *side >= self.probe);
+        sides.min_by(|one, other| one.1.total_cmp(&other.1))
     }
 }
 
