@@ -11,6 +11,7 @@ use marbles_scene::Scene;
 use super::error::Error;
 use crate::base::failure::Failure;
 use crate::base::size::{LONGEST_SIDE, Size};
+use crate::commands::args::DEFAULT_TOLERANCE;
 use crate::commands::scene::require_frames;
 use crate::formats::center_channels::{
     AxesForm, CenterChannel, CenterChannels, DepthForm, name_of,
@@ -48,8 +49,6 @@ pub struct Options {
     pub progress: bool,
 }
 
-/// The tolerance of channels that are averages, of pictures without one: the default of the command line.
-const TOLERANCE_OF_SAMPLES: f64 = 1e-3;
 /// The most samples on a side of a pixel, as on the command line.
 const MOST_SAMPLES: u32 = 1000;
 
@@ -69,7 +68,7 @@ impl Options {
                     format!("tolerance: expected a finite number above 0, found {tolerance}");
                 return Err(refused(message));
             }
-            Method::Samples(samples) if samples.get() <= MOST_SAMPLES => TOLERANCE_OF_SAMPLES,
+            Method::Samples(samples) if samples.get() <= MOST_SAMPLES => DEFAULT_TOLERANCE,
             Method::Samples(samples) => {
                 let message =
                     format!("samples: expected from 1 to {MOST_SAMPLES}, found {samples}");

@@ -1,5 +1,4 @@
-//! Threads that are kept from one rendering to the next: starting them, and the memory that they ask for anew, takes as
-//! long as rendering a small picture.
+//! Threads that are kept from one rendering to the next, so that a small picture does not wait until they have started.
 
 use std::ops::Deref;
 use std::process;
