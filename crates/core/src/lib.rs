@@ -51,6 +51,7 @@ mod raster;
 mod render;
 mod sampling;
 mod search;
+mod soft;
 mod time;
 
 pub use glam;
@@ -72,6 +73,7 @@ pub use model::opencv::{Extrinsics, Intrinsics, right_handed};
 pub use model::outline::{Outline, OutlineWidth};
 pub use model::ray::Ray;
 pub use model::rotation::{RotationError, nearest_rotation};
+pub use model::sky::Sky;
 pub use model::sphere::{Sphere, SphereError};
 pub use model::view::View;
 pub use model::world::{LightPart, MaterialId, World};

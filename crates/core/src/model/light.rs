@@ -44,6 +44,7 @@ pub enum Light {
 pub struct DirectionalLight {
     toward: DVec3,
     intensity: Color,
+    diameter: f64,
 }
 
 /// A light at a point of the world.
@@ -119,6 +120,14 @@ impl Light {
         }
     }
 
+    /// The light whose disc has a diameter, if it is one: a sun, whose shadows are soft.
+    pub fn sun(&self) -> Option<&DirectionalLight> {
+        match self {
+            Self::Directional(light) => Some(light).filter(|light| light.diameter > 0.0),
+            Self::Point(_) => None,
+        }
+    }
+
     /// The point light, if it is one.
     pub fn point(&self) -> Option<&PointLight> {
         match self {
@@ -155,7 +164,27 @@ impl DirectionalLight {
     /// Refuses a vector that is zero or not finite: it has no direction.
     pub fn new(toward: DVec3, intensity: Color) -> Result<Self, LightError> {
         let toward = unit(toward).ok_or(LightError::Toward(toward))?;
-        Ok(Self { toward, intensity })
+        Ok(Self {
+            toward,
+            intensity,
+            diameter: 0.0,
+        })
+    }
+
+    /// The same light as a disc of this angular diameter in radians; 0 makes it a point again.
+    ///
+    /// # Errors
+    /// Refuses a diameter that is negative, not a number, or not less than 180 degrees.
+    pub fn with_diameter(self, diameter: f64) -> Result<Self, LightError> {
+        if !(0.0..std::f64::consts::PI).contains(&diameter) {
+            return Err(LightError::Diameter(diameter));
+        }
+        Ok(Self { diameter, ..self })
+    }
+
+    /// The angular diameter of its disc, in radians; 0 for a point.
+    pub fn diameter(&self) -> f64 {
+        self.diameter
     }
 
     /// Unit vector toward the light, in the world frame.

@@ -19,6 +19,10 @@ use glam::DVec3;
 pub enum LightError {
     /// The vector toward a directional light is zero, infinite or not a number.
     Toward(DVec3),
+    /// The diameter of a sun is negative, not a number, or not less than a straight angle.
+    Diameter(f64),
+    /// The direction that is up for a sky is zero, infinite or not a number.
+    Up(DVec3),
     /// The position of a point light is infinite or not a number.
     Position(DVec3),
     /// The reference distance of a point light is zero, negative, infinite or not a number.
@@ -35,6 +39,15 @@ impl fmt::Display for LightError {
             Self::Toward(found) => write!(
                 out,
                 "expected a finite vector toward the light that is not zero, found {found}"
+            ),
+            Self::Diameter(found) => write!(
+                out,
+                "expected a diameter of at least 0 and less than 180 degrees, found {} degrees",
+                found.to_degrees()
+            ),
+            Self::Up(found) => write!(
+                out,
+                "expected a finite direction that is not zero, found {found}"
             ),
             Self::Position(found) => write!(out, "expected a finite position, found {found}"),
             Self::Reference(found) => write!(

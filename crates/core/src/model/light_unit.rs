@@ -26,6 +26,7 @@ impl LightUnit {
         let contrast = world.ambient.max_element()
             + world.background.max_element()
             + lights.sum::<f64>()
+            + world.sky.map_or(0.0, |sky| sky.brightest().max_element())
             + outlines.fold(0.0, f64::max);
         let unit = power_of_two_from(contrast);
         Self {

@@ -16,6 +16,7 @@ pub(crate) mod outline;
 pub(crate) mod ray;
 pub(crate) mod rotation;
 pub(crate) mod roughness;
+pub(crate) mod sky;
 pub(crate) mod sphere;
 pub(crate) mod view;
 pub(crate) mod world;

@@ -9,6 +9,7 @@ use super::color::Color;
 use super::light::Light;
 use super::material::Material;
 use super::material_ids::MaterialIds;
+use super::sky::Sky;
 use super::sphere::Sphere;
 use crate::model::color::is_grey;
 
@@ -38,6 +39,8 @@ pub struct World {
     pub lights: Vec<Light>,
     /// Light from everywhere, which no shadow stops.
     pub ambient: Color,
+    /// Light from everywhere, as far as no sphere hides it.
+    pub sky: Option<Sky>,
     /// Radiance where no sphere is seen.
     pub background: Color,
     /// Whether spheres cast shadows on each other.
@@ -99,6 +102,8 @@ pub enum LightPart {
     Ambient,
     /// The light with this index, and its shadows.
     Light(usize),
+    /// The sky.
+    Sky,
 }
 
 /// One of a world's materials.
@@ -127,6 +132,7 @@ impl World {
             expects_colored_lights: false,
             expects_colored_spheres: false,
             ambient: Color::ZERO,
+            sky: None,
             background: Color::ZERO,
             shadows: true,
             surfaces: Arc::default(),
@@ -135,10 +141,11 @@ impl World {
         }
     }
 
-    /// The parts of the light: each of the lights, then what is left without them.
+    /// The parts of the light: each of the lights, the sky if there is one, then what is left without them.
     pub fn light_parts(&self) -> impl Iterator<Item = LightPart> + use<> {
         let lights = (0..self.lights.len()).map(LightPart::Light);
-        lights.chain([LightPart::Ambient])
+        let sky = self.sky.map(|_| LightPart::Sky);
+        lights.chain(sky).chain([LightPart::Ambient])
     }
 
     /// The same spheres under a part of the light, with all else off. Without ambient light the background is black, and
@@ -151,6 +158,7 @@ impl World {
         let (lights, [ambient, background]) = match part {
             LightPart::Ambient => (Vec::new(), [self.ambient, self.background]),
             LightPart::Light(index) => (vec![self.lights[index]], [Color::ZERO; 2]),
+            LightPart::Sky => (Vec::new(), [Color::ZERO; 2]),
         };
         let mut materials = Arc::clone(&self.materials);
         if part != LightPart::Ambient && self.has_outlines() {
@@ -164,6 +172,7 @@ impl World {
             lights,
             materials,
             ambient,
+            sky: self.sky.filter(|_| part == LightPart::Sky),
             background,
             expects_colored_lights: self.expects_colored_lights && part != LightPart::Ambient,
             ..self.clone()
@@ -184,6 +193,7 @@ impl World {
             expects_colored_lights: false,
             expects_colored_spheres: false,
             ambient: Color::ZERO,
+            sky: None,
             background: Color::ZERO,
             shadows: false,
             surfaces: Arc::clone(&self.surfaces),
@@ -343,7 +353,8 @@ impl World {
     pub(crate) fn range_of_light(&self, lights: &[Light], background: Color) -> [Color; 2] {
         let [mut dark, mut bright] = [background; 2];
         let lights = lights.iter().map(|light| self.brightest(light));
-        let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
+        let sky = self.sky.map_or(Color::ZERO, |sky| sky.brightest());
+        let lights = lights.fold(sky, |sum, light| sum + light);
         let highlights = self.materials.iter().filter_map(|one| one.highlight);
         let strength = highlights.fold(0.0_f64, |most, one| most.max(one.strength));
         let of_materials = self.materials.iter().map(|material| material.albedo);
@@ -380,6 +391,9 @@ impl World {
     /// True where the spheres' light has no color, whatever the background has.
     pub(crate) fn has_grey_spheres(&self) -> bool {
         is_grey(self.ambient)
+            && self
+                .sky
+                .is_none_or(|sky| is_grey(sky.above()) && is_grey(sky.below()))
             && !self.expects_colored_lights
             && !self.expects_colored_spheres
             && self.lights.iter().all(|light| is_grey(light.intensity()))

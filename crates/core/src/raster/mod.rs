@@ -98,7 +98,7 @@ impl<'scene> Raster<'scene> {
         if !is_known {
             return None;
         }
-        let LightUnit { unit, .. } = LightUnit::new(world, lights);
+        let LightUnit { unit, .. } = LightUnit::new(world, index.visibility.all_lights());
         let background = if alpha { Color::ZERO } else { world.background };
         let [dark, bright] = world.range_of_light(lights, background);
         let contrast = (bright - dark)

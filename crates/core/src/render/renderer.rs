@@ -188,7 +188,7 @@ impl<'world> Renderer<'world> {
         let lights = exposure.lights()?;
         Some(match self.part {
             None => lights.into(),
-            Some(LightPart::Ambient) => Arc::new([]),
+            Some(LightPart::Ambient | LightPart::Sky) => Arc::new([]),
             Some(LightPart::Light(index)) => Arc::new([lights[index]]),
         })
     }
@@ -208,7 +208,7 @@ impl<'world> Renderer<'world> {
     pub(super) fn layout(&self, exposure: &Exposure<'_>, settings: &Settings) -> Layout {
         let view = exposure.view();
         let of_frame = self.lights_of(exposure);
-        let lights = of_frame.as_deref().unwrap_or(self.visibility.lights());
+        let lights = of_frame.as_deref().unwrap_or(self.visibility.all_lights());
         Layout {
             size: (view.width, view.height),
             channels: Channels::of(&self.world, settings.alpha),

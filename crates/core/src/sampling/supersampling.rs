@@ -69,7 +69,7 @@ impl<'scene> Supersampling<'scene> {
         samples: NonZeroU32,
         alpha: bool,
     ) -> Self {
-        let LightUnit { unit, .. } = LightUnit::new(world, index.visibility.lights());
+        let LightUnit { unit, .. } = LightUnit::new(world, index.visibility.all_lights());
         Self {
             index: index.clone(),
             samples,

@@ -4,13 +4,14 @@
 //! Both leave out what cannot matter, by bounds that are rounded outward; every decision about what
 //! remains is exact for the given doubles.
 
+pub(crate) mod beyond;
 mod block_search;
 mod blocks;
 mod disc_grid;
 pub(crate) mod discs;
 pub(crate) mod frustum;
 pub(crate) mod grid;
-mod hierarchy;
+pub(crate) mod hierarchy;
 mod mask;
 mod nested;
 mod occluders;

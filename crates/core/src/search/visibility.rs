@@ -32,6 +32,8 @@ pub(crate) struct Visibility<'world> {
     /// In a world of shadows, or of very many spheres.
     pub(super) hierarchy: Option<Arc<Hierarchy>>,
     /// The lights, which may be others than the world's.
+    all_lights: Arc<[Light]>,
+    /// Those without a disc, whose shadows have edges.
     lights: Arc<[Light]>,
     /// One for each light; none in a world without shadows.
     occluders: Arc<[Occlusion<'world>]>,
@@ -95,7 +97,7 @@ impl Extent {
 
 /// Returns whether searches in a world need a hierarchy.
 fn has_hierarchy(world: &World) -> bool {
-    let casts_shadows = world.shadows && !world.lights.is_empty();
+    let casts_shadows = world.shadows && (!world.lights.is_empty() || world.sky.is_some());
     casts_shadows || world.spheres().len() >= CROWD
 }
 
@@ -118,6 +120,7 @@ impl<'world> Visibility<'world> {
             spheres,
             hierarchy: is_asked.then(|| Arc::new(Hierarchy::new(spheres))),
             lights: Arc::new([]),
+            all_lights: Arc::new([]),
             occluders: Arc::new([]),
             is_moderate: spheres.is_empty() || extent.is_moderate(),
             extent,
@@ -165,7 +168,9 @@ impl<'world> Visibility<'world> {
 
     /// The same world under other lights, as many as it has.
     pub(crate) fn with_lights(&self, world: &World, lights: Arc<[Light]>) -> Self {
-        let casting = if world.shadows { &lights[..] } else { &[] };
+        let hard = lights.iter().filter(|light| light.sun().is_none());
+        let hard: Arc<[Light]> = hard.copied().collect();
+        let casting = if world.shadows { &hard[..] } else { &[] };
         let of_light = |light: &Light| {
             let hierarchy = self.hierarchy.clone()?;
             Some(match light {
@@ -187,7 +192,8 @@ impl<'world> Visibility<'world> {
         });
         Self {
             occluders: casting.iter().filter_map(of_light).collect(),
-            lights,
+            lights: hard,
+            all_lights: lights,
             outer: outer.map(Arc::new),
             ..self.clone()
         }
@@ -196,10 +202,16 @@ impl<'world> Visibility<'world> {
     /// The same for a part of the light.
     pub(crate) fn under(&self, part: LightPart) -> Self {
         let index = match part {
-            LightPart::Ambient => None,
+            LightPart::Ambient | LightPart::Sky => None,
             LightPart::Light(index) => Some(index),
         };
-        let light = index.map(|index| self.lights[index]);
+        let light = index.map(|index| self.all_lights[index]);
+        // Its place among those without a disc.
+        let index = index.filter(|&index| self.all_lights[index].sun().is_none());
+        let index = index.map(|index| {
+            let before = self.all_lights[..index].iter();
+            before.filter(|light| light.sun().is_none()).count()
+        });
         // There is none in a world without shadows.
         let occluders = index.and_then(|index| self.occluders.get(index));
         let outer = self.outer.as_deref().map(|outer| OuterSpheres {
@@ -207,16 +219,27 @@ impl<'world> Visibility<'world> {
             ..outer.clone()
         });
         Self {
-            lights: light.into_iter().collect(),
+            lights: index.map(|index| self.lights[index]).into_iter().collect(),
+            all_lights: light.into_iter().collect(),
             occluders: occluders.cloned().into_iter().collect(),
             outer: outer.map(Arc::new),
             ..self.clone()
         }
     }
 
-    /// The lights.
+    /// The lights without a disc.
     pub(crate) fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// All lights.
+    pub(crate) fn all_lights(&self) -> &[Light] {
+        &self.all_lights
+    }
+
+    /// All spheres in a hierarchy, if any hide light from others.
+    pub(crate) fn hierarchy(&self) -> Option<&Hierarchy> {
+        self.hierarchy.as_deref()
     }
 
     /// The hierarchy that finds what a view sees, where asking sphere by sphere takes too long.

@@ -13,7 +13,6 @@ pub(crate) mod noise;
 use fearless_simd::Simd;
 use glam::DVec3;
 
-#[cfg(test)]
 use self::noise::Cell;
 use self::noise::{NoiseCells, hash, spread};
 use super::material::{Grain, Roughness};
@@ -83,7 +82,6 @@ pub(crate) struct Bumps {
 
 impl Bumps {
     /// The shading normal, unit, at the point with the outward normal `normal`.
-    #[cfg(test)]
     pub(crate) fn perturb(&self, normal: DVec3) -> DVec3 {
         let normal = normal.to_array();
         let (nearest, offset) = self.place(normal);

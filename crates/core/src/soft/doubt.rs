@@ -1,0 +1,223 @@
+//! Changes of soft light that points of a cell may miss.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::light::SoftLight;
+use super::line::Candidate;
+use super::point::Occluders;
+use super::sun::Sun;
+use crate::light::shading_normal::ShadingNormal;
+use crate::model::camera::Projection;
+use crate::model::world::World;
+use crate::search::beyond::Beyond;
+
+/// A ball around the part of a sphere that a cell may see.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    pub(crate) middle: DVec3,
+    pub(crate) around: f64,
+    /// A bound of the angle between normals in it and that in its middle.
+    pub(crate) turn: f64,
+    /// The unit vector from its middle toward the eye.
+    pub(crate) to_eye: DVec3,
+    /// The normal nearest to its middle.
+    pub(crate) normal: DVec3,
+}
+
+impl Extent {
+    /// That of what a cell sees of a candidate, in the camera's frame and the candidate's units.
+    ///
+    /// The distance of a point of a sphere from the eye grows with the distance of its ray from the center.
+    pub(crate) fn new(candidate: &Candidate, cell: [[f64; 2]; 2], projection: Projection) -> Self {
+        let [u, v] = cell;
+        let middle = DVec2::new(0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
+        let half = 0.5 * DVec2::new(u[1] - u[0], v[1] - v[0]).length();
+        let (center, radius) = (candidate.center, candidate.radius);
+        let (origin, axis, aside, spread) = match projection {
+            Projection::Central => {
+                // A ray turns by less than its end moves.
+                let axis = middle.extend(1.0).normalize();
+                let distance = center.length();
+                (
+                    DVec3::ZERO,
+                    axis,
+                    axis.cross(center).length(),
+                    half * distance,
+                )
+            }
+            Projection::Parallel => {
+                let origin = middle.extend(0.0);
+                (
+                    origin,
+                    DVec3::Z,
+                    (center - origin).truncate().length(),
+                    half,
+                )
+            }
+        };
+        let [near, far] = [aside - spread, aside + spread].map(|aside| aside.clamp(0.0, radius));
+        let along = |aside: f64| {
+            let to_foot = match projection {
+                Projection::Central => (center.length_squared() - aside * aside).max(0.0).sqrt(),
+                Projection::Parallel => center.z,
+            };
+            to_foot - (radius * radius - aside * aside).max(0.0).sqrt()
+        };
+        let (near, far) = (along(near), along(far));
+        let depth = 0.5 * (near + far);
+        let across = match projection {
+            Projection::Central => half * far.abs(),
+            Projection::Parallel => half,
+        };
+        let middle = origin + axis * depth;
+        let around = across + 0.5 * (far - near).abs();
+        Self {
+            middle,
+            around,
+            turn: 2.0 * around / radius,
+            to_eye: -axis,
+            normal: (middle - center).normalize(),
+        }
+    }
+
+    /// The same in the world's frame and units.
+    pub(crate) fn in_world(&self, world_from_camera: &DMat3, eye: DVec3, scale: f64) -> Self {
+        Self {
+            middle: eye + *world_from_camera * self.middle * scale,
+            around: self.around * scale,
+            turn: self.turn,
+            to_eye: *world_from_camera * self.to_eye,
+            normal: *world_from_camera * self.normal,
+        }
+    }
+}
+
+/// The part of the brightest light that may change between the points of a cell without being noticed: 0 where light is
+/// smooth enough for them.
+pub(crate) fn doubt(
+    light: &SoftLight,
+    extent: &Extent,
+    (world, sphere): (&World, usize),
+    shading: &ShadingNormal,
+    occluders: Option<&Occluders<'_>>,
+) -> f64 {
+    let of_bumps = of_bumps(extent, shading);
+    let of_light = match light {
+        SoftLight::Sun(sun) => {
+            let of_highlight = of_highlight(sun, extent, (world, sphere), shading);
+            of_highlight.max(of_shadows(sun, extent, sphere, occluders))
+        }
+        SoftLight::Sky(_) => of_small_spheres(extent, sphere, occluders),
+    };
+    of_bumps.max(of_light)
+}
+
+/// Bumps that are finer than a cell.
+fn of_bumps(extent: &Extent, shading: &ShadingNormal) -> f64 {
+    /// The part of a cell of the noise that points may be apart.
+    const FINE: f64 = 0.25;
+    if shading.cells() * extent.turn > FINE {
+        shading.most_tilt().min(1.0)
+    } else {
+        0.0
+    }
+}
+
+/// A highlight that is narrower than a cell.
+fn of_highlight(
+    sun: &Sun,
+    extent: &Extent,
+    (world, sphere): (&World, usize),
+    shading: &ShadingNormal,
+) -> f64 {
+    let Some(highlight) = &world.material(sphere).highlight else {
+        return 0.0;
+    };
+    // n·h falls to e^(−1/2) at this angle.
+    let width = 1.0 / highlight.shininess.sqrt();
+    let turn = extent.turn * shading.slope_bound();
+    if turn < 0.5 * width {
+        return 0.0;
+    }
+    let half = (sun.disc.axis + extent.to_eye).normalize();
+    let angle = extent.normal.angle_between(half);
+    if angle > turn + shading.most_tilt() + 7.0 * width {
+        return 0.0;
+    }
+    0.5 * highlight.strength / (1.0 + highlight.strength)
+}
+
+/// Shadows whose penumbrae are narrower than a cell, or begin or end in it.
+///
+/// Where a sphere begins to hide the disc, and where it hides all of it, is a cone around the sphere's shadow. The distance
+/// from either changes by no more than the place does. From there on the share of the disc grows with the power 3/2 of that
+/// distance.
+fn of_shadows(sun: &Sun, extent: &Extent, sphere: usize, occluders: Option<&Occluders<'_>>) -> f64 {
+    let Some(occluders) = occluders else {
+        return 0.0;
+    };
+    /// The mean over a cell of a share that begins in it, in parts of the power of its size. Not tuned.
+    const OF_EDGE: f64 = 0.25;
+    let disc = &sun.disc;
+    if extent.normal.dot(disc.axis) <= -(disc.sine + extent.turn) {
+        return 0.0;
+    }
+    let toward = Beyond::Cone {
+        apex: extent.middle,
+        around: extent.around,
+        axis: disc.axis,
+        sine: disc.sine,
+        cosine: disc.cosine,
+    };
+    let (mut doubt, mut is_dark) = (0.0_f64, false);
+    let own = &occluders.spheres[sphere];
+    occluders
+        .hierarchy
+        .for_each_beyond(occluders.spheres, &toward, |index| {
+            let other = &occluders.spheres[index];
+            if is_dark || index == sphere || other == own {
+                return;
+            }
+            let to_center = other.center() - extent.middle;
+            let along = to_center.dot(disc.axis);
+            let aside = (to_center - disc.axis * along).length();
+            // Half of the width of the penumbra.
+            let wide = (along * disc.sine).abs();
+            let middle = aside * disc.cosine - other.radius();
+            is_dark |= along > 0.0 && middle + wide < -extent.around;
+            let touches = |edge: f64| edge.abs() <= extent.around;
+            if wide <= extent.around {
+                doubt = 0.5;
+            } else if touches(middle - wide) || touches(middle + wide) {
+                let size = other.radius() / wide;
+                let share = (extent.around / wide).sqrt() * (extent.around / wide);
+                doubt = doubt.max(OF_EDGE * share * (size * size).min(1.0));
+            }
+        });
+    if is_dark { 0.0 } else { doubt }
+}
+
+/// Small spheres right above a cell.
+fn of_small_spheres(extent: &Extent, sphere: usize, occluders: Option<&Occluders<'_>>) -> f64 {
+    /// Spheres within so many times the size of the cell that are not as many times as large.
+    const NEAR: f64 = 2.0;
+    let Some(occluders) = occluders else {
+        return 0.0;
+    };
+    let near = Beyond::Ball {
+        center: extent.middle,
+        radius: NEAR * extent.around,
+    };
+    let mut doubt: f64 = 0.0;
+    let own = &occluders.spheres[sphere];
+    occluders
+        .hierarchy
+        .for_each_beyond(occluders.spheres, &near, |index| {
+            let other = &occluders.spheres[index];
+            if index != sphere && other != own && other.radius() < NEAR * extent.around {
+                let size = other.radius() / extent.around;
+                doubt = doubt.max((size * size).min(1.0));
+            }
+        });
+    doubt
+}

@@ -1,0 +1,116 @@
+//! The heights at which what is seen along horizontal lines of a cell may change other than smoothly.
+//!
+//! Contours and seams are circles in space. Between the heights at which they enter and leave the cell at its sides, and
+//! those of their highest and lowest points, the ends of spans move smoothly, but for places where three spheres meet.
+
+use glam::DVec3;
+
+use super::line::{Candidate, Span, spans};
+use crate::model::camera::Projection;
+
+/// A circle in space.
+struct Circle {
+    center: DVec3,
+    /// Two vectors from its center to points of it, at right angles.
+    arms: [DVec3; 2],
+}
+
+impl Circle {
+    fn new(center: DVec3, normal: DVec3, radius_sq: f64) -> Self {
+        let across = normal.any_orthonormal_vector();
+        let radius = radius_sq.max(0.0).sqrt();
+        Self {
+            center,
+            arms: [across * radius, normal.cross(across) * radius],
+        }
+    }
+
+    /// The heights of its highest and its lowest point in the picture.
+    fn extremes(&self, projection: Projection) -> Option<[f64; 2]> {
+        let [a, b] = self.arms;
+        // Where c cos φ + s sin φ + rest = 0, the height of the point c cos φ + … does not change with φ.
+        let (c, s, rest) = match projection {
+            Projection::Central => (
+                self.center.z * b.y - self.center.y * b.z,
+                self.center.y * a.z - self.center.z * a.y,
+                b.y * a.z - a.y * b.z,
+            ),
+            Projection::Parallel => (b.y, -a.y, 0.0),
+        };
+        let square = c * c + s * s;
+        let root = (square - rest * rest).sqrt();
+        if !(root.is_finite() && square > 0.0) {
+            return None;
+        }
+        let height = |sign: f64| {
+            let cosine = (-rest * c - sign * s * root) / square;
+            let sine = (-rest * s + sign * c * root) / square;
+            let point = self.center + a * cosine + b * sine;
+            match projection {
+                Projection::Central => point.y / point.z,
+                Projection::Parallel => point.y,
+            }
+        };
+        Some([height(1.0), height(-1.0)])
+    }
+}
+
+/// The contour of a sphere with the candidate's center and some radius.
+fn contour(candidate: &Candidate, radius: f64, projection: Projection) -> Circle {
+    let center = candidate.center;
+    match projection {
+        Projection::Central => {
+            let distance_sq = center.length_squared();
+            let outside = distance_sq - radius * radius;
+            let share = outside / distance_sq;
+            Circle::new(
+                center * share,
+                center / distance_sq.sqrt(),
+                radius * radius * share,
+            )
+        }
+        Projection::Parallel => Circle::new(center, DVec3::Z, radius * radius),
+    }
+}
+
+/// The circle in which two spheres meet, if they do.
+fn seam(one: &Candidate, other: &Candidate) -> Option<Circle> {
+    let between = other.center - one.center;
+    let distance = between.length();
+    let along =
+        0.5 * (distance + (one.radius - other.radius) * (one.radius + other.radius) / distance);
+    let radius_sq = (one.radius - along) * (one.radius + along);
+    let normal = between / distance;
+    (radius_sq > 0.0 && normal.is_finite())
+        .then(|| Circle::new(one.center + normal * along, normal, radius_sq))
+}
+
+/// Finds these heights within those of a cell, from its lowest to its highest.
+pub(crate) fn heights(
+    candidates: &[Candidate],
+    (u, v): ([f64; 2], [f64; 2]),
+    projection: Projection,
+    (ends, found): (&mut Vec<f64>, &mut Vec<Span>),
+) -> Vec<f64> {
+    let mut heights = vec![v[0], v[1]];
+    let turned: Vec<Candidate> = candidates.iter().map(Candidate::transposed).collect();
+    for side in u {
+        spans(&turned, v, side, projection, ends, found);
+        heights.extend(found.iter().map(|span| span.end));
+    }
+    for (place, candidate) in candidates.iter().enumerate() {
+        let radii = [Some(candidate.radius), candidate.inner];
+        let contours = radii.into_iter().flatten();
+        let contours = contours.map(|radius| contour(candidate, radius, projection));
+        let seams = candidates[..place]
+            .iter()
+            .filter_map(|other| seam(candidate, other));
+        for circle in contours.chain(seams) {
+            heights.extend(circle.extremes(projection).into_iter().flatten());
+        }
+    }
+    heights.retain(|height| (v[0]..=v[1]).contains(height));
+    heights.sort_unstable_by(f64::total_cmp);
+    heights.dedup();
+    heights
+}

@@ -1,0 +1,263 @@
+//! The spheres that are seen along a horizontal line of the picture.
+
+use glam::{DMat3, DVec3};
+
+use crate::hit::ball::Ball;
+use crate::model::camera::Projection;
+
+/// A sphere in the camera's frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidate {
+    pub(crate) sphere: usize,
+    pub(crate) center: DVec3,
+    pub(crate) radius: f64,
+    /// The squared distance of the center from the eye less the squared radius.
+    outside: f64,
+    /// The radius of the sphere that a ray has to meet to miss the outline, if there is one.
+    pub(crate) inner: Option<f64>,
+}
+
+/// A part of a line on which one sphere, or none, is seen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    pub(crate) begin: f64,
+    pub(crate) end: f64,
+    /// The place of the candidate that is seen there with light; none where light is known to be none.
+    pub(crate) seen: Option<usize>,
+}
+
+/// Divisions that find where two spheres change places.
+const BISECTIONS: u32 = 40;
+
+impl Candidate {
+    pub(crate) fn new(ball: &Ball, camera_from_world: &DMat3, inner: Option<f64>) -> Self {
+        Self {
+            sphere: ball.index as usize,
+            center: *camera_from_world * ball.to_center,
+            radius: ball.radius,
+            outside: ball.outside,
+            inner,
+        }
+    }
+
+    /// The candidate with rows and columns exchanged.
+    pub(crate) fn transposed(&self) -> Self {
+        Self {
+            center: DVec3::new(self.center.y, self.center.x, self.center.z),
+            ..*self
+        }
+    }
+
+    /// What is positive where a ray through (u, v) meets the concentric sphere of a radius: of rays from the eye in the
+    /// direction (u, v, 1) times their squared length.
+    fn meets(&self, u: f64, v: f64, radius: f64, projection: Projection) -> f64 {
+        match projection {
+            Projection::Central => {
+                let ray = DVec3::new(u, v, 1.0);
+                ray.length_squared() * (radius * radius) - ray.cross(self.center).length_squared()
+            }
+            Projection::Parallel => {
+                let (a, b) = (u - self.center.x, v - self.center.y);
+                radius * radius - a * a - b * b
+            }
+        }
+    }
+
+    /// The distance at which a ray meets the sphere, in multiples of the ray, and whether that is from inside.
+    fn distance(&self, u: f64, v: f64, projection: Projection) -> Option<(f64, bool)> {
+        let discriminant = self.meets(u, v, self.radius, projection);
+        match projection {
+            Projection::Central => {
+                let ray = DVec3::new(u, v, 1.0);
+                let along = ray.dot(self.center);
+                if self.outside <= 0.0 {
+                    let root = discriminant.max(0.0).sqrt();
+                    return Some(((along + root) / ray.length_squared(), true));
+                }
+                let is_met = discriminant >= 0.0 && along > 0.0;
+                is_met.then(|| (self.outside / (along + discriminant.sqrt()), false))
+            }
+            Projection::Parallel => {
+                let root = (discriminant >= 0.0).then(|| discriminant.sqrt())?;
+                let (near, far) = (self.center.z - root, self.center.z + root);
+                (far > 0.0).then_some(if near > 0.0 {
+                    (near, false)
+                } else {
+                    (far, true)
+                })
+            }
+        }
+    }
+
+    /// True where the sphere's own light is seen if the ray meets it first: from outside, and not behind the outline.
+    fn has_light(&self, u: f64, v: f64, projection: Projection, is_inside: bool) -> bool {
+        !is_inside
+            && self
+                .inner
+                .is_none_or(|inner| self.meets(u, v, inner, projection) >= 0.0)
+    }
+
+    /// True if the rays through all corners of a cell meet it from outside, and show its light: then so do all rays
+    /// between them, for what the eye sees of it is convex.
+    pub(crate) fn fills(&self, u: [f64; 2], v: [f64; 2], projection: Projection) -> bool {
+        u.into_iter().all(|u| {
+            v.into_iter()
+                .all(|v| match self.distance(u, v, projection) {
+                    Some((_, is_inside)) => self.has_light(u, v, projection, is_inside),
+                    None => false,
+                })
+        })
+    }
+
+    /// True unless no ray through a cell meets the sphere.
+    pub(crate) fn may_be_in(&self, u: [f64; 2], v: [f64; 2], projection: Projection) -> bool {
+        /// What rounding may move a sphere by.
+        const SLACK: f64 = 1e-9;
+        let middle = DVec3::new(0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]), 1.0);
+        let half = 0.5 * (u[1] - u[0]).hypot(v[1] - v[0]);
+        let (distance, reach) = match projection {
+            Projection::Central => {
+                if self.outside <= 0.0 {
+                    return true;
+                }
+                let length = middle.length();
+                // Rays within this angle of the middle one, seen from the eye.
+                let sine = (half / length).min(1.0);
+                let cosine = (1.0 - sine * sine).sqrt();
+                let along = middle.dot(self.center) / length;
+                let aside = middle.cross(self.center).length() / length;
+                if along * cosine + aside * sine < 0.0 {
+                    return false;
+                }
+                (aside * cosine - along * sine, self.center.length())
+            }
+            Projection::Parallel => {
+                let apart = (middle - self.center).truncate().length();
+                (apart - half, self.center.length())
+            }
+        };
+        distance <= self.radius + SLACK * (reach + self.radius)
+    }
+
+    /// Adds the places on a line at which a ray begins or ceases to meet the concentric sphere of a radius.
+    fn add_ends(&self, v: f64, radius: f64, projection: Projection, ends: &mut Vec<f64>) {
+        let DVec3 { x, y, z } = self.center;
+        let square = radius * radius;
+        match projection {
+            Projection::Central => {
+                let a = square - z * z - y * y;
+                let b = x * (y * v + z);
+                let aside = v * z - y;
+                let c = (1.0 + v * v) * (square - x * x) - aside * aside;
+                let discriminant = b * b - a * c;
+                if discriminant >= 0.0 {
+                    let q = -(b + discriminant.sqrt().copysign(b));
+                    ends.extend([q / a, c / q].into_iter().filter(|end| end.is_finite()));
+                }
+            }
+            Projection::Parallel => {
+                let half_sq = square - (v - y) * (v - y);
+                if half_sq >= 0.0 {
+                    ends.extend([x - half_sq.sqrt(), x + half_sq.sqrt()]);
+                }
+            }
+        }
+    }
+}
+
+/// The candidate that a ray meets first, and whether its light is seen.
+fn first(
+    candidates: &[Candidate],
+    u: f64,
+    v: f64,
+    projection: Projection,
+) -> Option<(usize, bool)> {
+    let mut nearest: Option<(usize, f64, bool)> = None;
+    for (place, candidate) in candidates.iter().enumerate() {
+        if let Some((distance, is_inside)) = candidate.distance(u, v, projection)
+            && nearest.is_none_or(|(_, least, _)| distance < least)
+        {
+            nearest = Some((place, distance, is_inside));
+        }
+    }
+    let (place, _, is_inside) = nearest?;
+    Some((
+        place,
+        candidates[place].has_light(u, v, projection, is_inside),
+    ))
+}
+
+/// Finds what is seen along the line at the height `v` from one place to another.
+pub(crate) fn spans(
+    candidates: &[Candidate],
+    [from, to]: [f64; 2],
+    v: f64,
+    projection: Projection,
+    ends: &mut Vec<f64>,
+    spans: &mut Vec<Span>,
+) {
+    ends.clear();
+    for candidate in candidates {
+        candidate.add_ends(v, candidate.radius, projection, ends);
+        if let Some(inner) = candidate.inner {
+            candidate.add_ends(v, inner, projection, ends);
+        }
+        if projection == Projection::Parallel && candidate.center.z.abs() < candidate.radius {
+            let DVec3 { z, .. } = candidate.center;
+            let cut = (candidate.radius * candidate.radius - z * z).sqrt();
+            candidate.add_ends(v, cut, projection, ends);
+        }
+    }
+    ends.retain(|&end| end > from && end < to);
+    ends.push(to);
+    ends.sort_unstable_by(f64::total_cmp);
+    spans.clear();
+    let mut begin = from;
+    for &end in &*ends {
+        if end > begin {
+            between(candidates, [begin, end], v, projection, spans);
+            begin = end;
+        }
+    }
+}
+
+/// Finds what is seen between two places where nothing begins and nothing ends but where spheres meet.
+fn between(
+    candidates: &[Candidate],
+    [begin, end]: [f64; 2],
+    v: f64,
+    projection: Projection,
+    spans: &mut Vec<Span>,
+) {
+    let at = |u: f64| first(candidates, u, v, projection);
+    let inside = 1e-6 * (end - begin);
+    let places = [begin + inside, 0.5 * (begin + end), end - inside];
+    let mut start = begin;
+    let mut seen = places.map(at);
+    for half in 0..2 {
+        if seen[half] != seen[half + 1] {
+            let (mut low, mut high) = (places[half], places[half + 1]);
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (low + high);
+                if at(middle) == seen[half] {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            push(spans, start, high, seen[half]);
+            start = high;
+            // A third one may be seen in between.
+            seen[half] = seen[half + 1];
+        }
+    }
+    push(spans, start, end, seen[2]);
+}
+
+fn push(spans: &mut Vec<Span>, begin: f64, end: f64, seen: Option<(usize, bool)>) {
+    spans.push(Span {
+        begin,
+        end,
+        seen: seen.and_then(|(place, has_light)| has_light.then_some(place)),
+    });
+}

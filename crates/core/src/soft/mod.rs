@@ -1,0 +1,27 @@
+//! Soft light: suns with a disc, and the sky.
+//!
+//! Seen from a point, a sphere hides a *cap* of directions: all within some angle of an axis. The own surface hides one more,
+//! the directions below its tangent plane. Light is an integral over the directions that no cap hides, which is a sum over
+//! the arcs of the caps' circles that no other cap covers: exact at a point.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `cap.rs`, `arcs.rs`, `visible.rs` | caps, the arcs of their circles, the integral over what is visible |
+//! | `sun.rs`, `sky.rs`, `light.rs` | the light at a point |
+//! | `line.rs` | what is seen along a line of the picture |
+//! | `cell.rs`, `piece.rs` | the average over a pixel or a part of one |
+//! | `picture.rs` | the averages over pixels, by samples or to a tolerance |
+
+mod arcs;
+mod cap;
+mod cell;
+mod doubt;
+mod heights;
+mod light;
+mod line;
+pub(crate) mod picture;
+mod piece;
+mod point;
+mod sky;
+mod sun;
+mod visible;
