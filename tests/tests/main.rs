@@ -40,6 +40,7 @@ mod scattered;
 mod shading;
 mod shutter;
 mod sidecar;
+mod soft_light;
 mod studio;
 mod tolerance;
 mod truth;

@@ -22,10 +22,11 @@ use crate::model::world::World;
 use crate::numeric::bits::set_bits;
 use crate::picture::band::Band;
 use crate::picture::image::Channels;
-use crate::picture::pixel::{Pixel, Status, Work};
+use crate::picture::pixel::{Method, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 use crate::sampling::Supersampling;
 use crate::search::view_index::ViewIndex;
+use crate::soft::picture::{self as soft, Soft};
 
 mod crowd_samples;
 mod range;
@@ -58,6 +59,8 @@ pub(crate) struct Exact<'scene> {
     crowd: Option<CrowdSamples<'scene>>,
     /// The least and the most light that any pixel may show, once a crowd asks.
     range: OnceLock<[Color; 2]>,
+    /// The light whose shadows have no edges.
+    soft: Option<Box<Soft<'scene>>>,
     level: Level,
 }
 
@@ -82,6 +85,7 @@ const OF_COVERAGE: f64 = 0.25;
 pub(crate) struct GroupScratch {
     exact: Scratch,
     of_crowds: OfCrowds,
+    soft: soft::Scratch,
 }
 
 impl GroupScratch {
@@ -139,7 +143,27 @@ impl<'scene> Exact<'scene> {
             crowd: CrowdSamples::new(world, view, index, tolerance, alpha),
             index: index.clone(),
             range: OnceLock::new(),
+            soft: None,
             level: Level::new(),
+        }
+    }
+
+    /// The same under all lights, soft ones as well, which have a part of the tolerance of their own.
+    pub(crate) fn of_all_light(
+        world: &'scene World,
+        view: &View,
+        index: &ViewIndex<'scene>,
+        tolerance: f64,
+        alpha: bool,
+    ) -> Self {
+        let soft = Soft::new(world, view, index, Method::Tolerance(tolerance));
+        let rest = match soft {
+            Some(_) => tolerance * (1.0 - Soft::SHARE),
+            None => tolerance,
+        };
+        Self {
+            soft: soft.map(Box::new),
+            ..Self::new(world, view, index, rest, alpha)
         }
     }
 
@@ -341,6 +365,7 @@ fn integrate_each(
     GroupScratch {
         exact: scratch,
         of_crowds,
+        soft: of_soft,
     }: &mut GroupScratch,
     write: &mut dyn FnMut(usize, Option<&[Pixel]>),
 ) -> Work {
@@ -354,7 +379,10 @@ fn integrate_each(
     if u128::from(known) & all == all {
         scratch.leave_out(tile);
         for index in 0..integrators.len() {
-            let pixels = of_crowds.all(index);
+            let mut pixels = of_crowds.all(index);
+            if let (Some(pixels), Some(soft)) = (&mut pixels, &integrators[index].soft) {
+                work += soft.add(tile, of_soft, pixels);
+            }
             write(index, pixels.as_deref());
         }
         return work;
@@ -399,6 +427,9 @@ fn integrate_each(
         let (pixels, more) = exact.sum(tile, (candidates, is_moderate), lit);
         work += more;
         of_crowds.replace(index, pixels);
+        if let Some(soft) = &exact.soft {
+            work += soft.add(tile, of_soft, pixels);
+        }
         write(index, Some(pixels));
     }
     work

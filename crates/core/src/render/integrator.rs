@@ -9,14 +9,13 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::band::Band;
 use crate::picture::geometry::Written;
-use crate::picture::pixel::{Method, Pixel, Work};
+use crate::picture::pixel::{Method, Work};
 use crate::picture::progress::{Cancelled, Progress};
 use crate::picture::tile::Tile;
 use crate::sampling::{self, Supersampling};
 use crate::search::grid::RayPoints;
 use crate::search::view_index::ViewIndex;
 use crate::search::visibility::Visibility;
-use crate::soft::picture::{self as soft, Soft};
 use crate::time::exact::ExactOverTime;
 use crate::time::instants::Instants;
 use crate::time::sampled::SampledOverTime;
@@ -28,19 +27,6 @@ pub(super) enum Integrator<'scene> {
     Sampled(Box<Supersampling<'scene>>),
     ExactOverTime(Box<ExactOverTime<'scene>>),
     SampledOverTime(Box<SampledOverTime<'scene>>),
-    WithSoftLight(Box<WithSoftLight<'scene>>),
-}
-
-/// Light whose shadows have edges, and soft light, each with an integrator of its own.
-pub(super) struct WithSoftLight<'scene> {
-    other: Other<'scene>,
-    soft: Soft<'scene>,
-}
-
-/// The integrator of all light that is not soft.
-enum Other<'scene> {
-    Exact(Exact<'scene>),
-    Sampled(Supersampling<'scene>),
 }
 
 /// Memory that a thread works in, for band after band.
@@ -49,8 +35,6 @@ pub(super) struct Scratch {
     pub(super) exact: GroupScratch,
     pub(super) areas: areas::Scratch,
     pub(super) sampled: sampling::Scratch,
-    soft: soft::Scratch,
-    pixels: Vec<Pixel>,
 }
 
 /// Facts about the spheres of a view, for others with the same view.
@@ -101,25 +85,13 @@ impl<'scene> Integrator<'scene> {
             };
         }
         let index = indices.of(visibility, view, method.into());
-        if let Some(soft) = Soft::new(world, view, &index, method) {
-            let other = match method {
-                Method::Tolerance(tolerance) => {
-                    let rest = tolerance * (1.0 - Soft::SHARE);
-                    Other::Exact(Exact::new(world, view, &index, rest, alpha))
-                }
-                Method::Samples(samples) => {
-                    Other::Sampled(Supersampling::new(world, view, &index, samples, alpha))
-                }
-            };
-            return Self::WithSoftLight(Box::new(WithSoftLight { other, soft }));
-        }
         match method {
             Method::Tolerance(tolerance) => {
-                let exact = Exact::new(world, view, &index, tolerance, alpha);
+                let exact = Exact::of_all_light(world, view, &index, tolerance, alpha);
                 Self::Exact(Box::new(exact))
             }
             Method::Samples(samples) => {
-                let sampled = Supersampling::new(world, view, &index, samples, alpha);
+                let sampled = Supersampling::of_all_light(world, view, &index, samples, alpha);
                 Self::Sampled(Box::new(sampled))
             }
         }
@@ -133,10 +105,6 @@ impl<'scene> Integrator<'scene> {
         progress: &Progress<'_>,
         mut geometry: Option<Written<'_>>,
     ) -> Result<Work, Cancelled> {
-        if let Self::WithSoftLight(integrator) = self {
-            // Geometry is sampled apart.
-            return integrator.paint_band(band, scratch, progress);
-        }
         let Scratch { exact, sampled, .. } = scratch;
         match self {
             Self::Exact(integrator) => paint_exact(&mut [(integrator, band)], exact, progress),
@@ -152,37 +120,7 @@ impl<'scene> Integrator<'scene> {
             }
             Self::ExactOverTime(integrator) => integrator.paint_band(band, exact, progress),
             Self::SampledOverTime(integrator) => integrator.paint_band(band, sampled, progress),
-            Self::WithSoftLight(_) => unreachable!("painted above"),
         }
-    }
-}
-
-impl WithSoftLight<'_> {
-    /// Writes all pixels of a band.
-    fn paint_band(
-        &self,
-        band: &mut Band<'_>,
-        scratch: &mut Scratch,
-        progress: &Progress<'_>,
-    ) -> Result<Work, Cancelled> {
-        let Scratch {
-            exact,
-            sampled,
-            soft,
-            pixels,
-            ..
-        } = scratch;
-        let paint = |tile, band: &mut Band<'_>| {
-            pixels.clear();
-            let mut work = match &self.other {
-                Other::Exact(other) => other.integrate(tile, exact, pixels),
-                Other::Sampled(other) => other.integrate(tile, sampled, pixels),
-            };
-            work += self.soft.add(tile, soft, pixels);
-            band.write(tile, pixels);
-            work
-        };
-        paint_tiles(band, progress, paint)
     }
 }
 

@@ -19,11 +19,12 @@ use crate::model::world::World;
 use crate::picture::band::Band;
 use crate::picture::geometry::{Geometry, TileGeometry};
 use crate::picture::image::{Channels, Uniform};
-use crate::picture::pixel::{Evidence, Pixel, Status, Work};
+use crate::picture::pixel::{Evidence, Method, Pixel, Status, Work};
 use crate::picture::quantities::GeometrySettings;
 use crate::picture::tile::{Tile, TileLight};
 use crate::search::shadow_cells::ShadowCells;
 use crate::search::view_index::ViewIndex;
+use crate::soft::picture::{self as soft, Soft};
 
 /// The number of balls in a tile from which on they are: few of eight pixels beside each other see the same ball then.
 const CROWD: usize = 16;
@@ -55,6 +56,8 @@ pub(crate) struct Supersampling<'scene> {
     pub(super) is_dark: bool,
     /// The number of balls in a tile from which on eight samples of one pixel are taken together.
     crowd: usize,
+    /// The light whose shadows have no edges.
+    soft: Option<Box<Soft<'scene>>>,
     /// The instructions that the processor has.
     pub(super) level: Level,
 }
@@ -83,7 +86,23 @@ impl<'scene> Supersampling<'scene> {
             centers: None,
             is_dark: false,
             crowd: CROWD,
+            soft: None,
             level: Level::new(),
+        }
+    }
+
+    /// The same under all lights, soft ones as well.
+    pub(crate) fn of_all_light(
+        world: &'scene World,
+        view: &View,
+        index: &ViewIndex<'scene>,
+        samples: NonZeroU32,
+        alpha: bool,
+    ) -> Self {
+        let soft = Soft::new(world, view, index, Method::Samples(samples));
+        Self {
+            soft: soft.map(Box::new),
+            ..Self::new(world, view, index, samples, alpha)
         }
     }
 
@@ -212,6 +231,7 @@ impl<'scene> Supersampling<'scene> {
             geometry,
             cells: shadow_cells,
             samples: row_samples,
+            ..
         }: &mut Scratch,
     ) -> Option<u64> {
         let side = self.samples.get();
@@ -280,12 +300,22 @@ impl<'scene> Supersampling<'scene> {
         }
         let tile_pixels = tile.pixels();
         let pixel = |(col, row)| self.pixel_of(light, col - tile.col, row - tile.row);
+        let first = pixels.len();
         pixels.extend(tile_pixels.map(pixel));
+        if let Some(soft) = self.soft.as_ref().filter(|_| tests.is_some()) {
+            soft.add(tile, &mut scratch.soft, &mut pixels[first..]);
+        }
         self.work(tile, tests.unwrap_or(0))
     }
 
     /// Writes the tile's pixels into the band of a picture that contains it; returns what they cost.
     pub(crate) fn paint(&self, tile: Tile, scratch: &mut Scratch, band: &mut Band<'_>) -> Work {
+        if self.soft.is_some() {
+            let mut pixels = Vec::with_capacity(tile.count() as usize);
+            let work = self.integrate(tile, scratch, &mut pixels);
+            band.write(tile, &pixels);
+            return work;
+        }
         let tests = self.sample(tile, scratch);
         if tests.is_some() {
             band.write_light(tile, &scratch.light);
@@ -329,6 +359,7 @@ pub(crate) struct Scratch {
     pub(super) geometry: TileGeometry,
     pub(super) cells: ShadowCells,
     samples: RowSamples,
+    soft: soft::Scratch,
 }
 
 #[cfg(test)]

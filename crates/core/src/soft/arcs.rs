@@ -37,6 +37,17 @@ impl CoveredArcs {
         self.is_whole = false;
     }
 
+    /// Puts the arcs into the order of their begins. There are few.
+    fn sort(&mut self) {
+        for last in 1..self.arcs.len() {
+            let mut place = last;
+            while place > 0 && self.arcs[place].begin < self.arcs[place - 1].begin {
+                self.arcs.swap(place, place - 1);
+                place -= 1;
+            }
+        }
+    }
+
     /// Covers the whole circle.
     pub(crate) fn cover_all(&mut self) {
         self.is_whole = true;
@@ -61,11 +72,7 @@ impl CoveredArcs {
         if self.is_whole {
             return;
         }
-        self.arcs.sort_unstable_by(|one, other| {
-            one.begin
-                .total_cmp(&other.begin)
-                .then(one.end.total_cmp(&other.end))
-        });
+        self.sort();
         let Some(first) = self.arcs.first() else {
             visit(None);
             return;

@@ -9,9 +9,6 @@
 //! suns that are narrower than a cell, small spheres right above it, narrow highlights and fine bumps, and has such cells
 //! divided.
 
-use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap};
-
 use glam::DVec2;
 
 use super::heights::heights;
@@ -50,9 +47,32 @@ pub(crate) struct Integral {
     pub(crate) error: f64,
 }
 
+/// The claim of a cell inside one sphere, in parts of what the light in its middle differs from the mean of its corners, of
+/// what the means of its diagonals differ, and of what any corner differs from the middle.
+const OF_BEND: f64 = 1.0;
+const OF_TWIST: f64 = 0.125;
+const OF_SLOPE: f64 = 0.03;
+
+/// The parts of a pixel that are divided together: those that claim at least this part of the largest claim. Not tuned.
+const WORST: f64 = 0.25;
+
+/// How often a pixel is halved at most.
+const MOST_DIVISIONS: u32 = 30;
+
 /// Lines across a strip of a cell.
 const LINES: usize = 8;
 const FEW_LINES: usize = 4;
+
+/// Light at a place.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    sphere: usize,
+    at: DVec2,
+    light: Option<Color>,
+}
+
+/// The places of light that is known.
+const KNOWN: usize = 1 << 11;
 
 /// The rules by which lines are summed, and memory.
 #[derive(Debug)]
@@ -62,9 +82,9 @@ pub(crate) struct Cells {
     few: [(f64, f64); FEW_LINES],
     ends: Vec<f64>,
     spans: Vec<Span>,
-    /// The light at corners and middles, of a sphere at a place, which cells have in common.
-    known: HashMap<(usize, u64, u64), Option<Color>>,
-    /// Points of light that were computed.
+    /// The light at corners and middles, which cells have in common: at each place the last of those that belong there.
+    known: Vec<Option<Known>>,
+    /// Points of light that were computed, and cells in which some sphere may be seen.
     pub(crate) points: u64,
 }
 
@@ -75,7 +95,7 @@ impl Default for Cells {
             few: smooth_rule(),
             ends: Vec::new(),
             spans: Vec::new(),
-            known: HashMap::new(),
+            known: vec![None; KNOWN],
             points: 0,
         }
     }
@@ -101,32 +121,6 @@ struct Part {
     integral: Integral,
 }
 
-/// The worst is the greatest; of parts that claim as much, the one that lies first in the picture.
-impl Ord for Part {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let place = |part: &Self| part.cell.middle();
-        let (this, that) = (place(self), place(other));
-        let errors = self.integral.error.total_cmp(&other.integral.error);
-        errors
-            .then(this.y.total_cmp(&that.y))
-            .then(this.x.total_cmp(&that.x))
-    }
-}
-
-impl PartialOrd for Part {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Part {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Part {}
-
 impl Cell {
     fn area(&self) -> f64 {
         (self.u[1] - self.u[0]) * (self.v[1] - self.v[0])
@@ -147,7 +141,7 @@ impl Cell {
 impl Cells {
     /// Forgets the light of another tile, or another light.
     pub(crate) fn begin(&mut self) {
-        self.known.clear();
+        self.known.fill(None);
     }
 
     /// The average over a pixel to a tolerance, if no more than about `most` points are needed.
@@ -160,27 +154,27 @@ impl Cells {
     ) -> Integral {
         let last = self.points + most;
         let area = cell.area();
-        let first = self.part(light, cell, projection, candidates);
-        let mut error = first.integral.error;
-        let mut parts = BinaryHeap::from([first]);
-        while error > tolerance * area && self.points < last {
-            let Some(Part {
-                cell,
-                candidates,
-                integral,
-            }) = parts.pop()
-            else {
+        let mut parts = vec![self.part(light, cell, projection, candidates)];
+        let mut divided = Vec::new();
+        for _ in 0..MOST_DIVISIONS {
+            let errors = || parts.iter().map(|part| part.integral.error);
+            if errors().sum::<f64>() <= tolerance * area || self.points >= last {
                 break;
-            };
-            error -= integral.error;
-            for quarter in cell.quarters() {
-                let part = self.part(light, quarter, projection, &candidates);
-                error += part.integral.error;
-                parts.push(part);
             }
+            let least = errors().fold(0.0, f64::max) * WORST;
+            for part in parts.drain(..) {
+                if part.integral.error < least || self.points >= last {
+                    divided.push(part);
+                    continue;
+                }
+                for quarter in part.cell.quarters() {
+                    divided.push(self.part(light, quarter, projection, &part.candidates));
+                }
+            }
+            std::mem::swap(&mut parts, &mut divided);
         }
         let mut average = Integral::default();
-        for part in parts.into_sorted_vec() {
+        for part in &parts {
             average.value += part.integral.value / area;
             average.error += part.integral.error / area;
         }
@@ -198,6 +192,7 @@ impl Cells {
             .iter()
             .filter(|candidate| light.may_see(candidate, &cell));
         let candidates: Vec<Candidate> = candidates.copied().collect();
+        self.points += u64::from(!candidates.is_empty());
         let integral = match &candidates[..] {
             [] => Integral::default(),
             [only] if only.fills(cell.u, cell.v, projection) => self.filled(light, only, &cell),
@@ -214,21 +209,31 @@ impl Cells {
     ///
     /// With the mean T of the light at the corners and C in the middle it is (T + 2 C)/3 of the area. Of a function that is
     /// convex, or concave, the average lies between C and T.
+    ///
+    /// The claim is as much as that allows, and parts of other differences, which bends along several lines leave. Their
+    /// factors are from searches: with none of them 1 pixel in 1000 was off by more than it claimed.
     fn filled(&mut self, light: &mut dyn Light, sphere: &Candidate, cell: &Cell) -> Integral {
         let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
         let corners = corners.map(|(right, top)| DVec2::new(cell.u[right], cell.v[top]));
-        let mut sum = Color::ZERO;
+        let mut colors = [Color::ZERO; 4];
         let mut is_missed = false;
-        for corner in corners {
+        for (corner, color) in corners.into_iter().zip(&mut colors) {
             match self.known_at(light, sphere, corner) {
-                Some(color) => sum += color,
+                Some(found) => *color = found,
                 None => is_missed = true,
             }
         }
         let middle = self.known_at(light, sphere, cell.middle());
-        let (mean, center) = (sum * 0.25, middle.unwrap_or_default());
+        let center = middle.unwrap_or_default();
+        let diagonals = [colors[0] + colors[3], colors[1] + colors[2]].map(|sum| sum * 0.5);
+        let mean = (diagonals[0] + diagonals[1]) * 0.5;
+        let range = colors.into_iter().map(|color| (color - center).abs());
+        let range = range.fold(Color::ZERO, Color::max);
+        let error = (mean - center).abs() * OF_BEND
+            + (diagonals[0] - diagonals[1]).abs() * OF_TWIST
+            + range * OF_SLOPE;
+        let mut error = error.max_element();
         let area = cell.area();
-        let mut error = (mean - center).abs().max_element() * (2.0 / 3.0);
         if is_missed || middle.is_none() {
             error = light.brightest();
         }
@@ -239,14 +244,25 @@ impl Cells {
     }
 
     fn known_at(&mut self, light: &mut dyn Light, sphere: &Candidate, at: DVec2) -> Option<Color> {
-        let key = (sphere.sphere, at.x.to_bits(), at.y.to_bits());
-        if let Some(&known) = self.known.get(&key) {
-            return known;
+        let hash = (sphere.sphere as u64)
+            .wrapping_add(at.x.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15))
+            .wrapping_add(at.y.to_bits().rotate_left(32))
+            .wrapping_mul(0xff51_afd7_ed55_8ccd);
+        let place = (hash >> 32) as usize % KNOWN;
+        if let Some(known) = &self.known[place]
+            && known.sphere == sphere.sphere
+            && known.at == at
+        {
+            return known.light;
         }
         self.points += 1;
-        let found = light.at(sphere, at);
-        self.known.insert(key, found);
-        found
+        let light = light.at(sphere, at);
+        self.known[place] = Some(Known {
+            sphere: sphere.sphere,
+            at,
+            light,
+        });
+        light
     }
 
     /// The integral over any cell.
@@ -323,7 +339,7 @@ impl Cells {
         piece: &Piece,
         cell: &Cell,
     ) -> Integral {
-        let mut nodes = piece.nodes(cell.u[1] - cell.u[0]);
+        let mut nodes = piece.nodes();
         if nodes.is_empty() {
             // Only the few lines have met it.
             let error = piece.rough_area * light.brightest();

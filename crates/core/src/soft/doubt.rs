@@ -103,10 +103,9 @@ pub(crate) fn doubt(
 ) -> f64 {
     let of_bumps = of_bumps(extent, shading);
     let of_light = match light {
-        SoftLight::Sun(sun) => {
-            let of_highlight = of_highlight(sun, extent, (world, sphere), shading);
-            of_highlight.max(of_shadows(sun, extent, sphere, occluders))
-        }
+        SoftLight::Sun(sun) => of_highlight(sun, extent, (world, sphere), shading)
+            .max(of_shadows(sun, extent, sphere, occluders))
+            .max(of_terminator(sun, extent, shading)),
         SoftLight::Sky(_) => of_small_spheres(extent, sphere, occluders),
     };
     of_bumps.max(of_light)
@@ -145,6 +144,20 @@ fn of_highlight(
         return 0.0;
     }
     0.5 * highlight.strength / (1.0 + highlight.strength)
+}
+
+/// The place where a surface turns away from a sun: light may begin between points.
+fn of_terminator(sun: &Sun, extent: &Extent, shading: &ShadingNormal) -> f64 {
+    /// The mean over a cell of light that begins in it, in parts of what it grows to. Not tuned.
+    const OF_BEND: f64 = 0.125;
+    let turn = extent.turn * shading.slope_bound();
+    let height = extent.normal.dot(sun.disc.axis).abs();
+    if height > sun.disc.sine + turn + shading.most_tilt() {
+        return 0.0;
+    }
+    // Over the disc's diameter light bends evenly.
+    let bend = (turn / sun.disc.sine).min(1.0);
+    OF_BEND * turn.min(1.0) * bend
 }
 
 /// Shadows whose penumbrae are narrower than a cell, or begin or end in it.

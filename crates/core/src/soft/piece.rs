@@ -53,33 +53,40 @@ impl Piece {
         band.spans.push([v, begin, end]);
     }
 
-    /// The places at which light is computed: all of them are seen.
-    pub(crate) fn nodes(&self, width: f64) -> Vec<DVec2> {
-        /// A span of more than this part of the cell's width has two nodes.
-        const WIDE: f64 = 0.25;
-        let mut nodes = Vec::with_capacity(2 * BANDS);
+    /// The places at which light is computed: all of them are seen. Three of them lie on one span, for light near a contour
+    /// goes with the square root of the distance from it.
+    pub(crate) fn nodes(&self) -> Vec<DVec2> {
+        /// Nodes of Gauss's rules with two and three points, in halves of a span from its middle.
+        const TWO: [f64; 2] = [-0.577_350_269_189_625_7, 0.577_350_269_189_625_7];
+        const THREE: [f64; 3] = [-0.774_596_669_241_483_4, 0.0, 0.774_596_669_241_483_4];
+        let mut nodes = Vec::with_capacity(2 * BANDS + 1);
+        let largest = self.bands.iter().map(|band| band.area).fold(0.0, f64::max);
         for band in self.bands.iter().filter(|band| band.area > 0.0) {
             let centroid = band.moment / band.area;
             let distance = |&[v, begin, end]: &[f64; 3]| {
                 (v - centroid.y).abs() + (begin - centroid.x).max(centroid.x - end).max(0.0)
             };
-            let nearest = band
-                .spans
-                .iter()
-                .min_by(|one, other| distance(one).total_cmp(&distance(other)));
+            let spans = band.spans.iter();
+            let nearest = spans.min_by(|one, other| distance(one).total_cmp(&distance(other)));
             let Some(&[v, begin, end]) = nearest else {
                 continue;
             };
-            if end - begin > WIDE * width {
-                let (middle, half) = (0.5 * (begin + end), 0.5 * (end - begin) / 3_f64.sqrt());
-                nodes.extend([middle - half, middle + half].map(|u| DVec2::new(u, v)));
-            } else {
-                nodes.push(DVec2::new(0.5 * (begin + end), v));
-            }
+            let places: &[f64] = if band.area == largest { &THREE } else { &TWO };
+            let (middle, half) = (0.5 * (begin + end), 0.5 * (end - begin));
+            nodes.extend(
+                places
+                    .iter()
+                    .map(|place| DVec2::new(middle + half * place, v)),
+            );
         }
         nodes
     }
 }
+
+/// The claim of few nodes, in parts of the largest difference from their mean, and of a plane, in parts of the largest
+/// difference from it. From searches.
+const OF_FEW: f64 = 3.0;
+const OF_PLANE: f64 = 4.0;
 
 /// The mean over a piece of light that is known at some nodes, and an estimate of its error: from the plane that fits best.
 pub(crate) fn mean_of_fit(centroid: DVec2, nodes: &[DVec2], light: &[Color]) -> (Color, f64) {
@@ -107,9 +114,10 @@ pub(crate) fn mean_of_fit(centroid: DVec2, nodes: &[DVec2], light: &[Color]) -> 
         (Color::ZERO, Color::ZERO)
     };
     let at = |place: DVec2| mean + along_x * (place.x - middle.x) + along_y * (place.y - middle.y);
-    let mut error = Color::ZERO;
+    let mut largest = Color::ZERO;
     for (node, light) in nodes.iter().zip(light) {
-        error = error.max((*light - at(*node)).abs());
+        largest = largest.max((*light - at(*node)).abs());
     }
+    let error = largest * if is_plane { OF_PLANE } else { OF_FEW };
     (at(centroid), error.max_element())
 }

@@ -35,7 +35,7 @@ impl Hidden {
     /// Leaves out all caps that another one contains.
     pub(crate) fn leave_out_contained(&mut self) {
         let widest_first = |one: &Cap, other: &Cap| other.versine.total_cmp(&one.versine);
-        self.caps.sort_by(widest_first);
+        self.caps.sort_unstable_by(widest_first);
         let mut kept = 0;
         for index in 0..self.caps.len() {
             let cap = self.caps[index];

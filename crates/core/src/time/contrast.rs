@@ -25,7 +25,8 @@ impl Contrast {
         };
         let lights = lights.iter();
         let lights: f64 = lights.map(|light| brightest(world, light)).sum();
-        let white = world.ambient.max_element() + lights;
+        let sky = world.sky.map_or(0.0, |sky| sky.brightest().max_element());
+        let white = world.ambient.max_element() + sky + lights;
         let spheres = (0..world.spheres().len()).into_par_iter();
         let of_spheres = spheres.map(|sphere| {
             let highlight = world.material(sphere).highlight;

@@ -48,7 +48,7 @@ impl<'scene> ExactOverTime<'scene> {
         tolerance: f64,
         alpha: bool,
     ) -> Self {
-        let contrast = Contrast::new(world, instants.visibility.lights(), alpha);
+        let contrast = Contrast::new(world, instants.visibility.all_lights(), alpha);
         let (view, motion) = (&instants.view, instants.motion.as_ref());
         let levels = PanelLevels::new(world, view, motion, tolerance / contrast.ordinary);
         Self {
@@ -118,7 +118,7 @@ impl<'scene> ExactOverTime<'scene> {
     fn integrators(&self, instants: &[Instant<'scene>], panel: Panel) -> Vec<Exact<'scene>> {
         let tolerance = SHARE_OF_AREA * self.tolerance;
         let at = |Instant { view, index }: &Instant<'scene>| {
-            Exact::new(self.world, view, index, tolerance, self.alpha)
+            Exact::of_all_light(self.world, view, index, tolerance, self.alpha)
                 .at_a_moment(panel.level)
                 .without_proofs()
         };

@@ -81,7 +81,8 @@ impl<'scene> SampledOverTime<'scene> {
             self.instants.with(group, times, |instants| {
                 for Instant { view, index } in instants {
                     let (samples, alpha) = (self.samples, self.alpha);
-                    let integrator = Supersampling::new(self.world, view, index, samples, alpha);
+                    let integrator =
+                        Supersampling::of_all_light(self.world, view, index, samples, alpha);
                     let mut pixels = Vec::with_capacity(area.count() as usize);
                     for tile in area.tiles() {
                         work += integrator.integrate(tile, scratch, &mut pixels);
