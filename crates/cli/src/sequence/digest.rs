@@ -260,7 +260,8 @@ impl Feed {
             Encoding::Exr(ExrOptions { float, error }) => {
                 self.integer(1);
                 self.integer(float);
-                self.integer(error);
+                // One was for errors in channels of other names.
+                self.integer(if error { 2 } else { 0 });
             }
             Encoding::Npy(NpyOptions { error, archive, .. }) => {
                 // Four is for archives, so that the digests of files are what they were.

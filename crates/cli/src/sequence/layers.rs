@@ -6,6 +6,7 @@ use marbles_core::{LightPart, World};
 
 use super::parts::light_number;
 use crate::formats::center_channels::CenterChannels;
+use crate::formats::exr::channels::error_layer;
 
 /// The picture of a part of a world's light, in a layer of the frame's file.
 #[derive(Clone, Debug, Eq, PartialEq)]
@@ -18,15 +19,18 @@ pub(crate) struct LightLayer {
 impl LightLayer {
     /// One layer for each part of a world's light. Its name is the name of the light, or else `light-` and its
     /// [`light_number`], and `ambient` for the rest. Some readers use the names as identifiers, so all of them begin
-    /// with a letter. Refuses names that other channels of the file have.
+    /// with a letter. `has_errors` tells whether the errors of each light have a layer, too. Refuses names that other
+    /// channels of the file have.
     pub(crate) fn each(
         world: &World,
         names: &[Option<String>],
         centers: Option<&CenterChannels>,
+        has_errors: bool,
     ) -> Result<Vec<Self>, String> {
         let centers = centers.into_iter().flat_map(CenterChannels::list);
         let of_layer = centers.filter_map(|(name, _)| name.split_once('.'));
-        let others: HashSet<&str> = of_layer.map(|(layer, _)| layer).collect();
+        let mut others: HashSet<String> = of_layer.map(|(layer, _)| layer.to_owned()).collect();
+        others.extend(has_errors.then(|| error_layer("")));
         let mut keys = HashSet::new();
         let count = world.lights.len();
         let layer = |light| {
@@ -39,13 +43,17 @@ impl LightLayer {
                     "the name of a layer has at most {LONGEST} characters, but that of the light `{key}` is longer"
                 ));
             }
-            if others.contains(&*key) {
-                return Err(format!(
-                    "the layer of the light `{key}` would have the name of the channels `{key}`"
-                ));
-            }
-            if !keys.insert(key.clone()) {
-                return Err(format!("two lights would share the layer `{key}`"));
+            let of_errors = has_errors.then(|| error_layer(&key));
+            for layer in [key.clone()].into_iter().chain(of_errors) {
+                if others.contains(&layer) {
+                    return Err(format!(
+                        "a layer of the light `{key}` would have the name of the channels `{layer}`"
+                    ));
+                }
+                if keys.contains(&layer) {
+                    return Err(format!("two lights would share the layer `{layer}`"));
+                }
+                keys.insert(layer);
             }
             Ok(Self { light, name: key })
         };
@@ -87,6 +95,14 @@ mod tests {
     use crate::formats::center_channels::{AxesForm, CenterChannel, DepthForm};
 
     fn layers(names: [Option<&str>; 2], groups: &[CenterChannel]) -> Result<Vec<String>, String> {
+        layers_with(names, groups, false)
+    }
+
+    fn layers_with(
+        names: [Option<&str>; 2],
+        groups: &[CenterChannel],
+        has_errors: bool,
+    ) -> Result<Vec<String>, String> {
         let mut world = World::new();
         for _ in 0..2 {
             world
@@ -95,7 +111,7 @@ mod tests {
         }
         let centers = CenterChannels::new(groups, DepthForm::Axis, AxesForm::World, false, 1e-3);
         let names = names.map(|name| name.map(str::to_owned));
-        let layers = LightLayer::each(&world, &names, Some(&centers))?;
+        let layers = LightLayer::each(&world, &names, Some(&centers), has_errors)?;
         Ok(layers.into_iter().map(|layer| layer.name).collect())
     }
 
@@ -144,6 +160,23 @@ mod tests {
             ),
         ] {
             let message = layers(names, &[group]).unwrap_err();
+            assert!(message.contains(why), "{message}");
+        }
+    }
+
+    #[test]
+    fn layers_of_errors_are_the_only_ones_of_their_names() {
+        for (names, why) in [
+            ([Some("error"), None], "the name of the channels `error`"),
+            (
+                [Some("coverage"), None],
+                "the name of the channels `coverage_error`",
+            ),
+            ([Some("a"), Some("a_error")], "share the layer `a_error`"),
+            ([Some("a_error"), Some("a")], "share the layer `a_error`"),
+        ] {
+            assert!(layers(names, &[CenterChannel::CoverageId]).is_ok());
+            let message = layers_with(names, &[CenterChannel::CoverageId], true).unwrap_err();
             assert!(message.contains(why), "{message}");
         }
     }

@@ -237,13 +237,14 @@ fn layers_hold_what_files_do() {
     let mut count = plain.len();
     for (layer, key) in LAYERS.into_iter().zip(KEYS) {
         let file = read(&folder, &format!("a.{key}.exr"));
-        for name in ["R", "G", "B", "error"] {
+        for name in ["R", "G", "B"] {
             assert!(
                 file[name] == layers[&format!("{layer}.{name}")],
                 "{layer}.{name}"
             );
-            count += 1;
         }
+        assert!(file["error.V"] == layers[&format!("{layer}_error.V")]);
+        count += 4;
     }
     assert_eq!(layers.len(), count);
 
@@ -252,15 +253,15 @@ fn layers_hold_what_files_do() {
     for color in ["R", "G", "B"] {
         for pixel in 0..50 * 37 {
             let sum = |channel: &str| -> f64 {
-                let numbers = LAYERS.map(|layer| format!("{layer}.{channel}"));
+                let numbers = LAYERS.map(|layer| format!("{layer}{channel}"));
                 numbers
                     .map(|name| f64::from(floats(&layers, &name)[pixel]))
                     .iter()
                     .sum()
             };
             let picture = f64::from(floats(&layers, color)[pixel]);
-            let error = sum("error") + f64::from(floats(&layers, "error")[pixel]);
-            let off = (sum(color) - picture).abs();
+            let error = sum("_error.V") + f64::from(floats(&layers, "error.V")[pixel]);
+            let off = (sum(&format!(".{color}")) - picture).abs();
             assert!(off <= error + 1e-6, "{color} {pixel}: {off} {error}");
             largest = largest.max(picture);
         }
@@ -331,7 +332,7 @@ fn layers_are_refused_where_there_can_be_none() {
         ),
         (
             "named.ron -o a.exr --channels depth",
-            "the layer of the light `depth` would have the name of the channels `depth`",
+            "a layer of the light `depth` would have the name of the channels `depth`",
         ),
     ] {
         let output = folder.run(&format!("render {arguments} --per-light=layers"));

@@ -12,7 +12,7 @@ class Directional(Variant):
 
     Args:
         toward: A vector of any length toward the light.
-        intensity: The color of a white surface that faces the light; 1 by default.
+        intensity: The color of a white surface that faces the light, in linear light; 1 by default.
         name: A unique name, which keys of an animation use.
         attached: `"Camera"` for a light that moves with the camera; `toward` is then in the axes of the camera: x
             right, y up, z forward.
@@ -35,12 +35,13 @@ class Point(Variant):
     """A light at a position; with a `direction`, an LED.
 
     Args:
-        position: The position of the light.
-        intensity: The color of a white surface that faces the light at the distance `reference`; 1 by default.
+        position: The position of the light, in scene units.
+        intensity: The color of a white surface that faces the light at the distance `reference`, in linear light; 1
+            by default.
         falloff: `"InverseSquare"` (the default): at the distance r the intensity is multiplied by
             (reference / r)²; `"None"`: it is the same at any distance.
-        reference: A distance greater than 0; by default the median distance to the surfaces of the spheres in the
-            first frame.
+        reference: A distance in scene units, greater than 0; by default the median distance to the surfaces of the
+            spheres in the first frame.
         direction: A vector of any length toward what the light faces. At an angle θ to it, the light is multiplied
             by (cos θ)^mu; from 90 degrees on there is none. Without it the light is the same in all directions.
         mu: The power, at least 0; 1 by default. Only with `direction`.
@@ -80,7 +81,7 @@ class Surface(Variant):
     """The grain of a rough material as bumps of the surface: `rough=dict(grain=Surface(12))`.
 
     Args:
-        size: A third of the distance between neighboring bumps, greater than 0.
+        size: A third of the distance between neighboring bumps, in scene units, greater than 0.
     """
 
     __slots__ = ()
@@ -93,7 +94,7 @@ class Units(Variant):
     """The width of an outline in scene units instead of pixels: `outline=dict(width=Units(0.05))`.
 
     Args:
-        width: The difference of the two radii, greater than 0.
+        width: The difference of the two radii, in scene units, greater than 0.
     """
 
     __slots__ = ()

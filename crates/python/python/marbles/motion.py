@@ -13,7 +13,8 @@ class Keyframes(Variant):
 
     A key is a dict. It has a `frame`, and the numbers at this frame: of the camera, such as `pan`, `position` or
     `zoom`, or with `light`, the name of a light, its `toward`, `position`, `direction`, `mu` or `intensity`. Its
-    `ease` is the way to the next key: `"Smooth"` (the default), `"Linear"` or `"Hold"`.
+    `ease` is the way to the next key: `"Smooth"` (the default), `"Linear"` or `"Hold"`. Lengths are in scene units,
+    angles in degrees.
 
     Args:
         keys: The keys, such as `[dict(frame=1, pan=0), dict(frame=60, pan=30, ease="Linear")]`.
