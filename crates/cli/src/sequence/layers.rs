@@ -18,7 +18,7 @@ pub(crate) struct LightLayer {
 
 impl LightLayer {
     /// One layer for each part of a world's light. Its name is the name of the light, or else `light-` and its
-    /// [`light_number`], and `ambient` for the rest. Some readers use the names as identifiers, so all of them begin
+    /// [`light_number`], `sky` for the sky and `ambient` for the rest. Some readers use the names as identifiers, so all of them begin
     /// with a letter. `has_errors` tells whether the errors of each light have a layer, too. Refuses names that other
     /// channels of the file have.
     pub(crate) fn each(
@@ -34,10 +34,7 @@ impl LightLayer {
         let mut keys = HashSet::new();
         let count = world.lights.len();
         let layer = |light| {
-            let key = match light {
-                LightPart::Light(index) => layer_name(index, count, names),
-                LightPart::Ambient => "ambient".to_owned(),
-            };
+            let key = layer_name(light, count, names);
             if key.len() > LONGEST {
                 return Err(format!(
                     "the name of a layer has at most {LONGEST} characters, but that of the light `{key}` is longer"
@@ -61,8 +58,13 @@ impl LightLayer {
     }
 }
 
-/// The name of the layer of one of several lights, of which some may have names.
-pub(crate) fn layer_name(index: usize, count: usize, names: &[Option<String>]) -> String {
+/// The name of the layer of a part of the light, which has several lights, of which some may have names.
+pub(crate) fn layer_name(light: LightPart, count: usize, names: &[Option<String>]) -> String {
+    let index = match light {
+        LightPart::Light(index) => index,
+        LightPart::Sky => return "sky".to_owned(),
+        LightPart::Ambient => return "ambient".to_owned(),
+    };
     let name = names.get(index).and_then(Option::as_deref);
     let numbered = || format!("light-{}", light_number(index, count));
     name.map_or_else(numbered, layer_safe)
@@ -89,7 +91,7 @@ fn layer_safe(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use marbles_core::Light;
+    use marbles_core::{Light, Sky};
 
     use super::*;
     use crate::formats::center_channels::{AxesForm, CenterChannel, DepthForm};
@@ -162,6 +164,22 @@ mod tests {
             let message = layers(names, &[group]).unwrap_err();
             assert!(message.contains(why), "{message}");
         }
+    }
+
+    #[test]
+    fn the_sky_has_a_layer_of_its_name() {
+        let mut world = World::new();
+        let light = Light::directional(DVec3::Y, DVec3::ONE);
+        world.lights.extend(light);
+        world.sky = Some(Sky::uniform(DVec3::ONE));
+        let layers = |name: &str| {
+            LightLayer::each(&world, &[Some(name.to_owned())], None, false)
+                .map(|layers| layers.into_iter().map(|layer| layer.name).collect())
+        };
+        let found: Vec<String> = layers("sun").unwrap();
+        assert_eq!(found, ["sun", "sky", "ambient"]);
+        let message = layers("sky").unwrap_err();
+        assert_eq!(message, "two lights would share the layer `sky`");
     }
 
     #[test]
