@@ -1,4 +1,4 @@
-"""Lights, and the values of materials that have a name."""
+"""Lights, the sky, and the values of materials that have a name."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ class Directional(Variant):
     Args:
         toward: A vector of any length toward the light.
         intensity: The color of a white surface that faces the light, in linear light; 1 by default.
+        diameter: The angle in degrees that the disc of the light has across, at least 0 and less than 180; that of the
+            sun is 0.53. With 0, the default, shadows are hard.
         name: A unique name, which keys of an animation use.
         attached: `"Camera"` for a light that moves with the camera; `toward` is then in the axes of the camera: x
             right, y up, z forward.
@@ -25,10 +27,13 @@ class Directional(Variant):
         toward: Vector,
         intensity: Color | None = None,
         *,
+        diameter: Number | None = None,
         name: str | None = None,
         attached: Literal["Camera"] | None = None,
     ) -> None:
-        super().__init__("Directional", name=name, toward=toward, attached=attached, intensity=intensity)
+        super().__init__(
+            "Directional", name=name, toward=toward, attached=attached, intensity=intensity, diameter=diameter
+        )
 
 
 class Point(Variant):
@@ -75,6 +80,21 @@ class Point(Variant):
             direction=direction,
             mu=mu,
         )
+
+
+class Sky(Variant):
+    """Light from all directions that no sphere hides; a sky of a single color is just this color: `sky=0.5`.
+
+    Args:
+        above: The radiance of the half of the sky that is up, as a color in linear light.
+        below: The radiance of the other half.
+        up: A vector of any length, across the plane between the halves; (0, 1, 0) by default.
+    """
+
+    __slots__ = ()
+
+    def __init__(self, above: Color, below: Color, up: Vector | None = None) -> None:
+        super().__init__("Sky", above=above, below=below, up=up)
 
 
 class Surface(Variant):

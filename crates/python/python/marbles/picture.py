@@ -100,7 +100,7 @@ class Picture:
 
     @cached_property
     def per_light(self) -> dict[str, Picture]:
-        """The pictures of single lights by name, "light-1" and so on if they have none, and "ambient".
+        """The pictures of single lights by name, "light-1" and so on if they have none, "sky", and "ambient".
 
         Their sum is the picture, within the errors of all. Empty if they were not asked for.
         """

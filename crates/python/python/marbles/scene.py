@@ -17,6 +17,7 @@ from .camera import Camera, camera_of
 from .cloud import Spheres
 from .draft import Draft
 from .faults import SceneWarning, python_paths, warn
+from .lights import Sky
 from .options import Axes, Depth, checked, whole
 from .picture import Picture
 from .sequence import Frames
@@ -26,8 +27,8 @@ Named: TypeAlias = Union[Variant, Mapping[str, object]]
 """A value with a name: a variant, or a dict such as `{"Fov": 40}`."""
 
 _FIELDS = (
-    "image", "lens", "camera", "zoom", "unit", "background", "ambient", "shadows", "lights", "materials", "spheres",
-    "clouds", "animation",
+    "image", "lens", "camera", "zoom", "unit", "background", "ambient", "sky", "shadows", "lights", "materials",
+    "spheres", "clouds", "animation",
 )  # fmt: skip
 
 
@@ -45,6 +46,7 @@ class Scene:
         unit: The unit of lengths, which scale bars show.
         background: The color where there is no sphere; 0 by default.
         ambient: The color of the light that reaches every point; 0 by default.
+        sky: The light from all directions that no sphere hides: a color, or `Sky` with two; none by default.
         shadows: Whether spheres cast shadows; True by default.
         lights: `Directional` and `Point`.
         materials: Dicts by name, with `albedo`, `exponent`, `highlight`, `rough`, `outline`.
@@ -74,6 +76,7 @@ class Scene:
         unit: str | None = None,
         background: Color | None = None,
         ambient: Color | None = None,
+        sky: Color | Sky | Mapping[str, object] | None = None,
         shadows: bool | None = None,
         lights: Sequence[Named] = (),
         materials: Mapping[str, Mapping[str, object]] | None = None,
@@ -82,7 +85,7 @@ class Scene:
         animation: Named | None = None,
     ) -> None:
         values = (
-            image, lens, camera, zoom, unit, background, ambient, shadows, lights, materials, spheres, clouds,
+            image, lens, camera, zoom, unit, background, ambient, sky, shadows, lights, materials, spheres, clouds,
             animation,
         )  # fmt: skip
         made = draft.new(dict(zip(_FIELDS, values)))
