@@ -1,12 +1,15 @@
 """Whether the readers of others find in every kind of file the numbers that marbles computed.
 
 Usage: formats.py FOLDER, with the pictures of `crates/cli/tests/process/readers.rs` in FOLDER, and
-numpy, Pillow, imageio, OpenCV and OpenEXR on the path.
+numpy, Pillow, imageio, OpenCV and OpenEXR on the path. OpenImageIO, pyexr, Mitsuba and Blender (`bpy`) are tried if they
+are on the path, too.
 
 The array of doubles is the truth: each other file has to hold it, rounded once to the file's own numbers.
 """
 
+import importlib.util
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -19,6 +22,7 @@ import OpenEXR
 from PIL import Image
 
 SCENES = ["color", "grey"]
+NAMES = [f"{scene}{alpha}" for scene in SCENES for alpha in ["", "-alpha"]]
 # More than doubles lose between light and code, and less than anybody would call a difference.
 SLACK = 1e-6
 
@@ -127,14 +131,12 @@ def check_exr(folder: Path, name: str, light: np.ndarray) -> int:
             found = {channel: data.pixels for channel, data in file.channels().items()}
             header = dict(file.header())
         names = "RGBA"[: light.shape[2]]
-        assert sorted(found) == sorted([*names, "error"]), sorted(found)
+        assert sorted(found) == sorted([*names, "error.V"]), sorted(found)
         for index, channel in enumerate(names):
             assert found[channel].dtype == number, (path, channel)
             assert np.array_equal(found[channel], expected[..., index]), (path, channel)
-        # Errors are rounded up.
-        stored = found["error"]
-        assert stored.dtype == np.float32
-        assert (stored >= error).all() and (np.nextafter(stored, np.float32(-1)) < error).all()
+        assert found["error.V"].dtype == np.float32
+        assert is_rounded_up(found["error.V"], error)
         assert header["error"] == error.max(), (header["error"], error.max())
         assert header["over"] == 0 and 0 < header["bounded_pixels"] <= error.size
         assert header["tolerance"] == np.float32(1e-3)
@@ -149,17 +151,22 @@ def check_exr(folder: Path, name: str, light: np.ndarray) -> int:
     return count
 
 
-def check_layers(folder: Path, name: str, light: np.ndarray) -> int:
+def is_rounded_up(stored: np.ndarray, error: np.ndarray) -> bool:
+    """Whether these are the smallest floats that are not below the errors."""
+    return (stored >= error).all() and (np.nextafter(stored, np.float32(-1)) < error).all()
+
+
+def check_sum(folder: Path, name: str, light: np.ndarray) -> int:
     """The picture is where it is without layers, and they make it as far as errors and the rounding of floats allow."""
     path = folder / f"{name}.layers.exr"
     expected = light.astype(np.float32)
     with OpenEXR.File(str(path), separate_channels=True) as file:
         found = {channel: data.pixels.astype(float) for channel, data in file.channels().items()}
     layers = ["light-1", "ambient"]
-    names = [*"RGBA"[: light.shape[2]], "error"]
-    names += [f"{layer}.{channel}" for layer in layers for channel in ["R", "G", "B", "error"]]
+    names = [*"RGBA"[: light.shape[2]], "error.V", *[f"{layer}_error.V" for layer in layers]]
+    names += [f"{layer}.{channel}" for layer in layers for channel in "RGB"]
     assert sorted(found) == sorted(names), sorted(found)
-    error = found["error"] + sum(found[f"{layer}.error"] for layer in layers) + SLACK
+    error = found["error.V"] + sum(found[f"{layer}_error.V"] for layer in layers) + SLACK
     for index, channel in enumerate("RGB"):
         assert np.array_equal(found[channel], expected[..., index]), (path, channel)
         summed = sum(found[f"{layer}.{channel}"] for layer in layers)
@@ -168,6 +175,140 @@ def check_layers(folder: Path, name: str, light: np.ndarray) -> int:
     full = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     assert full is not None and np.array_equal(rgb(full), expected), path
     return 1
+
+
+def true_layers(folder: Path, name: str) -> dict[str, np.ndarray]:
+    """The arrays of NPZ files, under the names of the layers of `NAME.all.exr`. The name of the picture is empty."""
+    layers = {}
+    for key, suffix in [("", ""), ("light-1", ".light-1"), ("ambient", ".ambient")]:
+        with np.load(folder / f"{name}.all{suffix}.npz") as file:
+            arrays = dict(file)
+        light = arrays.pop("light")
+        layers[key] = light[..., :3] if key else light
+        layers[f"{key}_error" if key else "error"] = arrays.pop("error")
+        layers |= arrays if not key else {}
+    assert len(layers) == 6 + 11, sorted(layers)
+    return layers
+
+
+def check_true(found: dict[str, np.ndarray], layers: dict[str, np.ndarray], reader: str, exact_ids: bool) -> int:
+    """Fails where a reader finds other layers than those of the NPZ files, or other numbers."""
+    assert sorted(found) == sorted(layers), (reader, sorted(found), sorted(layers))
+    for name, exact in layers.items():
+        stored = found[name]
+        assert stored.shape == exact.shape, (reader, name, stored.shape, exact.shape)
+        if exact.dtype == np.uint32:
+            number = np.uint32 if exact_ids else np.float32
+            assert stored.dtype == number and np.array_equal(stored, exact.astype(number)), (reader, name)
+        elif name in ["error", "light-1_error", "ambient_error"]:
+            assert stored.dtype == np.float32 and is_rounded_up(stored, exact), (reader, name)
+        else:
+            # Light is rounded once. Channels are computed for each type of numbers, to the last places.
+            some = np.isfinite(exact)
+            assert stored.dtype == np.float32 and np.array_equal(stored[~some], exact[~some]), (reader, name)
+            slack = np.spacing(np.abs(stored[some])) * (0.5 if name in ["", "light-1", "ambient"] else 2)
+            assert (np.abs(stored[some] - exact[some]) <= slack).all(), (reader, name)
+    return 1
+
+
+def grouped(channels: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The layers of channels; those of several components have them along their last axis."""
+    layers: dict[str, dict[str, np.ndarray]] = {}
+    for channel, numbers in channels.items():
+        layer, _, component = channel.rpartition(".")
+        layers.setdefault(layer, {})[component] = numbers
+    for layer, components in layers.items():
+        order = "V" if "V" in components else "Z" if len(components) == 1 else "XYZ" if "X" in components else "RGBA"
+        assert set(components) <= set(order), (layer, list(components))
+        arrays = [components[component] for component in order if component in components]
+        layers[layer] = arrays[0] if len(arrays) == 1 else np.stack(arrays, axis=-1)
+    return layers
+
+
+def by_openexr(path: Path) -> dict[str, np.ndarray]:
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        channels = {name: channel.pixels.copy() for part in file.parts for name, channel in part.channels.items()}
+    return grouped(channels)
+
+
+def by_openimageio(path: Path) -> dict[str, np.ndarray]:
+    """Each channel in its own type. As floats, indices of spheres would be divided by 2^32 - 1."""
+    import OpenImageIO
+
+    file = OpenImageIO.ImageInput.open(str(path))
+    spec = file.spec()
+    assert spec.alpha_channel == (3 if "A" in spec.channelnames else -1), spec.alpha_channel
+    channels = {
+        name: file.read_image(0, 0, index, index + 1, spec.channelformat(index))[..., 0]
+        for index, name in enumerate(spec.channelnames)
+    }
+    file.close()
+    return grouped(channels)
+
+
+def by_pyexr(path: Path) -> dict[str, np.ndarray]:
+    """The groups of pyexr, by their names."""
+    import pyexr
+
+    with pyexr.open(str(path)) as file:
+        layers = {"" if name == "default" else name: file.get(name) for name in file.root_channels}
+        for name in ["id", "coverage_id"]:
+            layers[name] = file.get(name, pyexr.UINT)
+    return {name: array if array.shape[2] > 1 else array[..., 0] for name, array in layers.items()}
+
+
+def by_mitsuba(path: Path) -> dict[str, np.ndarray]:
+    """The bitmaps of Mitsuba, which have floats alone."""
+    import mitsuba
+
+    mitsuba.set_variant("scalar_rgb")
+    bitmaps = {"" if name == "<root>" else name: bitmap for name, bitmap in mitsuba.Bitmap(str(path)).split()}
+    formats = mitsuba.Bitmap.PixelFormat
+    for name in ["", "light-1", "ambient", "albedo"]:
+        assert bitmaps[name].pixel_format() in [formats.RGB, formats.RGBA], (name, bitmaps[name])
+    for name in ["normal", "position", "mean_normal"]:
+        assert bitmaps[name].pixel_format() == formats.XYZ, (name, bitmaps[name])
+    return {name: np.array(bitmap) for name, bitmap in bitmaps.items()}
+
+
+def by_blender(path: Path) -> dict[str, np.ndarray]:
+    """The passes of Blender's compositor, which have floats alone; vectors of older versions have four of them."""
+    written = path.with_suffix(".blender.exr")
+    script = Path(__file__).with_name("through_blender.py")
+    subprocess.run([sys.executable, script, path, written], check=True, stdout=subprocess.DEVNULL)
+    layers = by_openexr(written)
+    has_alpha = "A" in OpenEXR.File(str(path), separate_channels=True).channels()
+    layers[""] = layers.pop("Combined")[..., : 4 if has_alpha else 3]
+    layers.pop("Alpha", None)
+    colors = [name for name, array in layers.items() if name and array.ndim == 3]
+    return layers | {name: layers[name][..., :3] for name in colors}
+
+
+# The readers of layers: the module, and whether integers stay integers.
+READERS = {
+    "OpenEXR": ("OpenEXR", by_openexr, True),
+    "OpenImageIO": ("OpenImageIO", by_openimageio, True),
+    "pyexr": ("pyexr", by_pyexr, True),
+    "Mitsuba": ("mitsuba", by_mitsuba, False),
+    "Blender": ("bpy", by_blender, False),
+}
+
+
+def check_layers(folder: Path) -> None:
+    """Every reader finds all channels, each layer under its name, and nothing in the picture that is not of it."""
+    for reader, (module, read, exact_ids) in READERS.items():
+        if importlib.util.find_spec(module) is None:
+            print(f"skipped: {reader} is not installed")
+            continue
+        count = 0
+        for name in NAMES:
+            layers = true_layers(folder, name)
+            count += check_true(read(folder / f"{name}.all.exr"), layers, reader, exact_ids)
+        print(f"layers of an EXR by {reader}: {count} of {len(NAMES)}")
+    for name in NAMES:
+        # OpenCV reads the picture alone.
+        full = cv2.imread(str(folder / f"{name}.all.exr"), cv2.IMREAD_UNCHANGED)
+        assert full is not None and np.array_equal(rgb(full), truth(folder, name).astype(np.float32)), name
 
 
 def check_camera(header: dict, light: np.ndarray) -> None:
@@ -193,15 +334,15 @@ def check_camera(header: dict, light: np.ndarray) -> None:
 def main() -> None:
     folder = Path(sys.argv[1])
     count = 0
-    for scene in SCENES:
-        for name in [scene, f"{scene}-alpha"]:
-            light = truth(folder, name)
-            is_grey = np.array_equal(light[..., 0], light[..., 2])
-            assert is_grey == (scene == "grey")
-            assert light.max() > 1.2, "some pixels should be clipped"
-            count += 1 + check_npz(folder, name, light)
-            count += check_png(folder, name, light) + check_exr(folder, name, light)
-            count += check_layers(folder, name, light)
+    for name in NAMES:
+        light = truth(folder, name)
+        is_grey = np.array_equal(light[..., 0], light[..., 2])
+        assert is_grey == name.startswith("grey")
+        assert light.max() > 1.2, "some pixels should be clipped"
+        count += 1 + check_npz(folder, name, light)
+        count += check_png(folder, name, light) + check_exr(folder, name, light)
+        count += check_sum(folder, name, light)
+    check_layers(folder)
     print(f"the same numbers: {count} of {count}")
 
 

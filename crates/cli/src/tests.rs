@@ -73,6 +73,38 @@ camera      Free: x 0, y 0, z 0
 }
 
 #[test]
+fn check_tells_suns_and_the_sky_in_words() {
+    let path = temporary("soft.ron");
+    let told = |sky: &str| {
+        let text = SCENE.replace(
+            "lights: [Directional(toward: (-1, 1, -1))]",
+            &format!("lights: [Directional(toward: (0, 1, 0)), Directional(toward: (0, 1, -1), diameter: 0.53)], sky: {sky}"),
+        );
+        std::fs::write(&path, text).unwrap();
+        let (code, out, err) = run_here(&["check", path.to_str().unwrap()]);
+        assert_eq!((code, &*err), (0, ""));
+        out
+    };
+    let out = told("(above: 0.5, below: (0.2, 0.1, 0.1))");
+    assert!(
+        out.contains(
+            "\
+lights      2, 1 sun among them
+            toward (0, 1, 0), intensity 1
+            toward (0, 0.707107, -0.707107), intensity 1, a disc 0.53° across: soft shadows
+"
+        ),
+        "{out}"
+    );
+    let sky = "
+sky         0.5 from above, (0.2, 0.1, 0.1) from below; up is (0, 1, 0)
+            a sky takes more time than any other light: ";
+    assert!(out.contains(sky), "{out}");
+    assert!(told("0.5").contains("\nsky         0.5 from everywhere\n"));
+    std::fs::remove_file(&path).unwrap();
+}
+
+#[test]
 fn check_tells_the_shape_of_rectangular_pixels() {
     let path = temporary("rectangles.ron");
     let scene = "(image: (width: 64, height: 48), lens: Matrix(fx: 80, fy: 100, cx: 31.5, cy: 23.5), camera: Free())";

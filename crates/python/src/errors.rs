@@ -10,13 +10,16 @@ create_exception!(
     marbles,
     SceneError,
     PyValueError,
-    "A scene, or a table of it, that is refused."
+    "A scene, or a table of it, that is refused.\n\n\
+     `faults` are all faults, in the order of the text. `path`, `line` and `column` are the place of the first one: the path\n\
+     of the value, such as `spheres[3].radius`, and the line and the column in characters, from 1. `file` is the refused\n\
+     file: the scene, or a table. `line` and `column` are None if no file is meant."
 );
 create_exception!(
     marbles,
     RenderError,
     PyRuntimeError,
-    "A rendering that failed."
+    "A rendering that failed: no memory, no space on the disk, or a table that changed meanwhile."
 );
 
 /// One fault of a refused scene.

@@ -1,6 +1,7 @@
 //! Frames that are being rendered.
 
 use std::path::Path;
+use std::process;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -8,7 +9,7 @@ use marbles_cli::library::{Next, Options, Rendering as Running};
 use marbles_scene::Scene;
 use pyo3::prelude::*;
 
-use crate::errors::library_error;
+use crate::errors::{RenderError, library_error};
 use crate::picture::Picture;
 
 #[pyclass(frozen, module = "marbles._native")]
@@ -16,6 +17,9 @@ pub(crate) struct Rendering {
     running: Mutex<Running>,
     #[pyo3(get)]
     warnings: Vec<String>,
+    /// The process whose threads render. One that was forked from it has neither these threads nor the one that may
+    /// have the lock.
+    process: u32,
 }
 
 /// The time between two looks for Ctrl-C.
@@ -33,7 +37,12 @@ impl Rendering {
         Ok(Self {
             warnings: running.warnings().to_vec(),
             running: Mutex::new(running),
+            process: process::id(),
         })
+    }
+
+    fn is_of_another_process(&self) -> bool {
+        self.process != process::id()
     }
 
     fn with<T: Send>(&self, py: Python<'_>, work: impl FnOnce(&mut Running) -> T + Send) -> T {
@@ -45,6 +54,11 @@ impl Rendering {
 #[pymethods]
 impl Rendering {
     fn next(&self, py: Python<'_>) -> PyResult<Option<Picture>> {
+        if self.is_of_another_process() {
+            return Err(RenderError::new_err(
+                "expected the process that began to render these frames, found another process, forked from it",
+            ));
+        }
         loop {
             let next = self.with(py, |running| running.next(PAUSE));
             match next.map_err(|error| library_error(py, &error))? {
@@ -60,6 +74,9 @@ impl Rendering {
     }
 
     fn stop(&self, py: Python<'_>) {
+        if self.is_of_another_process() {
+            return;
+        }
         self.with(py, Running::stop);
     }
 }

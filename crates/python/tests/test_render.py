@@ -105,6 +105,21 @@ def test_lights_add_up() -> None:
     assert (np.abs(total - picture.light).max(axis=-1) <= claimed + 1e-12).all()
 
 
+def test_the_sky_is_a_light_of_its_own_name() -> None:
+    sun = marbles.Directional((-1, 1.5, -1), name="sun", diameter=3)
+    scene = ball(lights=[sun], sky=marbles.Sky(above=(0.2, 0.3, 0.5), below=0.1), image={"width": 24, "height": 16})
+    picture = scene.render(1e-2, per_light=True)
+    assert list(picture.per_light) == ["sun", "sky", "ambient"]
+    total = sum(part.light for part in picture.per_light.values())
+    claimed = picture.error + sum(part.error for part in picture.per_light.values())
+    assert (np.abs(total - picture.light).max(axis=-1) <= claimed + 1e-12).all()
+    assert picture.sidecar["lights"][0]["diameter_degrees"] == 3
+    assert picture.sidecar["sky"] == {"above": [0.2, 0.3, 0.5], "below": [0.1, 0.1, 0.1], "up": [0, 1, 0]}
+    assert "sky" not in picture.per_light["sun"].sidecar
+    with pytest.raises(ValueError, match="two lights would share the picture `sky`"):
+        scene.replace(lights=[marbles.Directional((0, 1, 0), name="sky")]).render(1e-1, per_light=True)
+
+
 def test_sidecars_have_the_results() -> None:
     picture = ball().render(1e-2)
     assert picture.sidecar["over"] == picture.over

@@ -137,6 +137,30 @@ def test_warnings_point_at_the_caller() -> None:
         ball()
 
 
+def test_soft_light_is_saved_and_loaded(tmp_path: Path) -> None:
+    sky = marbles.Sky(above=(0.2, 0.3, 0.5), below="tan", up=(0, 1, 0.5))
+    scene = ball(lights=[marbles.Directional((-1, 1, -1), diameter=0.53)], sky=sky)
+    assert "diameter: 0.53" in scene.text and "sky: Sky(above: (0.2, 0.3, 0.5)" in scene.text
+    scene.save(tmp_path / "a.ron")
+    read = marbles.load(tmp_path / "a.ron")
+    assert same(read.render(samples=1).light, scene.render(samples=1).light)
+    as_dicts = scene.replace(
+        lights=[{"Directional": {"toward": [-1, 1, -1], "diameter": 0.53}}],
+        sky={"above": (0.2, 0.3, 0.5), "below": "tan", "up": (0, 1, 0.5)},
+    )
+    assert same(as_dicts.render(samples=1).light, scene.render(samples=1).light)
+    refused: list[tuple[dict[str, object], str]] = [
+        ({"sky": marbles.Sky(above=1, below=(0, -1, 0))}, "sky.below[1]"),
+        ({"sky": marbles.Sky(above=1, below=0, up=(0, 0, 0))}, "sky.up"),
+        ({"sky": -1}, "sky"),
+        ({"lights": [marbles.Directional((0, 1, 0), diameter=180)]}, "lights[0].diameter"),
+    ]
+    for field, path in refused:
+        with pytest.raises(marbles.SceneError) as caught:
+            ball(**field)
+        assert caught.value.path == path
+
+
 def test_fields_are_replaced() -> None:
     scene = marbles.loads(TEXT)
     brighter = scene.replace(ambient=1, background="#808080")

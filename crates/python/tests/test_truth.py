@@ -32,6 +32,16 @@ def test_ambient_light_times_albedo() -> None:
 
 
 @pytest.mark.filterwarnings("ignore::marbles.SceneWarning")
+def test_a_ball_alone_under_a_sky_is_as_under_ambient_light() -> None:
+    picture = alone(marbles.Fov(20), ambient=0, sky=(0.5, 0.25, 1)).render(1e-4)
+    assert np.abs(picture.light[15, 20] - (0.25, 0.2, 0.3)).max() <= picture.error[15, 20] + 1e-12
+    # At a normal toward the viewer half of the sky is above.
+    halves = marbles.Sky(above=(1, 0.5, 2), below=0)
+    picture = alone(marbles.Fov(20), ambient=0, sky=halves).render(1e-4)
+    assert np.abs(picture.light[15, 20] - (0.25, 0.2, 0.3)).max() <= picture.error[15, 20] + 1e-12
+
+
+@pytest.mark.filterwarnings("ignore::marbles.SceneWarning")
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-5])
 def test_the_coverage_is_the_area_of_the_disk(tolerance: float) -> None:
     pixels_per_unit = 41 / 4

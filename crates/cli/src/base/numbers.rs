@@ -50,6 +50,18 @@ pub(crate) fn short(value: f64) -> String {
     }
 }
 
+/// An angle in degrees, without the error of rounding that an angle in few digits gets from radians and back.
+pub(crate) fn degrees(radians: f64) -> f64 {
+    /// All shorter numbers differ as doubles.
+    const DIGITS: usize = 15;
+    let degrees = radians.to_degrees();
+    let rounded = format!("{degrees:.0$e}", DIGITS - 1).parse();
+    rounded
+        .ok()
+        .filter(|rounded: &f64| rounded.to_radians() == radians)
+        .unwrap_or(degrees)
+}
+
 /// A measured time, with three digits: `1.23 ms`.
 pub(crate) fn duration(seconds: f64) -> String {
     const UNITS: [(f64, &str); 3] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")];

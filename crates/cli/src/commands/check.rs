@@ -8,14 +8,14 @@ mod tables;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Channels, Color, Light, LightFalloff, Sphere, View, World, parallel};
+use marbles_core::{Channels, Color, Light, LightFalloff, Sky, Sphere, View, World, parallel};
 use marbles_scene::{CellDescription, CloudDescription, FrameError, Scene};
 use serde_json::json;
 
 use super::args::{CheckArguments, DEFAULT_TOLERANCE};
 use super::{dim_light, oversights, scene};
 use crate::base::failure::Failure;
-use crate::base::numbers::{range, short};
+use crate::base::numbers::{counted, degrees, range, short};
 use crate::base::shown::Shown;
 use crate::base::{status, threads};
 use crate::formats::sidecar::{Sidecar, turns};
@@ -26,6 +26,9 @@ use crate::terminal::console::Console;
 const FRAMES_LOOKED_AT: i64 = 100_000;
 /// The most lights that are listed.
 const LIGHTS_LISTED: usize = 8;
+/// What a sky means for the time of rendering.
+const SKY_COSTS: &str =
+    "a sky takes more time than any other light: every sphere near a point may hide a part of it";
 /// Width of the column with the names of things.
 const NAMES: usize = 12;
 
@@ -164,7 +167,7 @@ fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
     }
     let materials = scene.description().materials.len();
     rows.push(("materials", materials.to_string()));
-    rows.push(("lights", world.lights.len().to_string()));
+    rows.push(("lights", lights(&world.lights)));
     let names = &scene.description().lights;
     for (light, name) in world.lights.iter().zip(names).take(LIGHTS_LISTED) {
         let name = name.as_ref().map(|name| format!("{name:?} "));
@@ -182,6 +185,10 @@ fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
     let shadows = if world.shadows { "on" } else { "off" };
     rows.push(("shadows", shadows.to_owned()));
     rows.push(("ambient", color(world.ambient)));
+    if let Some(sky) = &world.sky {
+        rows.push(("sky", self::sky(sky)));
+        rows.push(("", SKY_COSTS.to_owned()));
+    }
     rows.push(("background", color(world.background)));
     let channels = match Channels::of(world, false) {
         Channels::Grey => "none: pictures have a single channel",
@@ -264,11 +271,41 @@ fn bounds(spheres: &[Sphere]) -> Vec<(&'static str, String)> {
     rows.into_iter().flatten().collect()
 }
 
+/// The number of lights, and of those that are suns.
+fn lights(lights: &[Light]) -> String {
+    let suns = lights.iter().filter(|light| light.sun().is_some()).count();
+    match suns {
+        0 => lights.len().to_string(),
+        _ => format!(
+            "{}, {} among them",
+            lights.len(),
+            counted(suns as u64, "sun")
+        ),
+    }
+}
+
+/// The light of the sky.
+fn sky(sky: &Sky) -> String {
+    let [above, below] = [sky.above(), sky.below()].map(color);
+    match above == below {
+        true => format!("{above} from everywhere"),
+        false => format!(
+            "{above} from above, {below} from below; up is {}",
+            vector(sky.up())
+        ),
+    }
+}
+
 fn placed(light: &Light) -> String {
     let intensity = color(light.intensity());
     match light {
         Light::Directional(light) => {
-            format!("toward {}, intensity {intensity}", vector(light.toward()))
+            let mut text = format!("toward {}, intensity {intensity}", vector(light.toward()));
+            if light.diameter() > 0.0 {
+                let diameter = short(degrees(light.diameter()));
+                text.push_str(&format!(", a disc {diameter}° across: soft shadows"));
+            }
+            text
         }
         Light::Point(light) => {
             let position = vector(light.position());

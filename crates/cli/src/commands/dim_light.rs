@@ -64,7 +64,10 @@ fn brightest(world: &World, sphere: usize) -> f64 {
     let lights: Color = lights.sum();
     let highlight = world.material(sphere).highlight;
     let strength = highlight.map_or(0.0, |highlight| highlight.strength);
-    let light = world.albedo(sphere) * (world.ambient + lights) + lights * strength;
+    let sky = world
+        .sky
+        .map_or(Color::ZERO, |sky| sky.above().max(sky.below()));
+    let light = world.albedo(sphere) * (world.ambient + sky + lights) + lights * strength;
     light.max_element()
 }
 
@@ -103,6 +106,8 @@ mod tests {
         for (fields, is_told) in [
             ("ambient: 0.01", true),
             ("ambient: 0", false),
+            ("sky: 0.01", true),
+            ("sky: (above: 0.01, below: 1)", false),
             ("background: 1", false),
             (
                 "lights: [Point(position: (0, 0, 2), reference: 0.02)]",

@@ -39,7 +39,10 @@ pub(super) fn warnings(
                 .to_owned(),
         );
     }
-    if world.lights.is_empty() && world.ambient.max_element() <= 0.0 {
+    if world.lights.is_empty()
+        && world.ambient.max_element() <= 0.0
+        && !lights::has_bright_sky(world)
+    {
         warnings.push(
             "the scene has no light: add one, such as `lights: [Directional(toward: (1, 2, -1))]`, or ambient \
              light, such as `ambient: 0.2`"
@@ -92,6 +95,14 @@ mod tests {
             (
                 sphere(0.0, 0.0, 5.0).replace("ambient: 1", "ambient: 0"),
                 "the scene has no light: ",
+            ),
+            (
+                sphere(0.0, 0.0, 5.0).replace("ambient: 1", "sky: 0"),
+                "the scene has no light: ",
+            ),
+            (
+                sphere(0.0, 0.0, 5.0).replace("ambient: 1", "sky: (above: 0.5, below: 0)"),
+                "",
             ),
             (LIT.to_owned(), "the scene has no spheres"),
         ] {

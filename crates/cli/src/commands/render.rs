@@ -172,7 +172,8 @@ pub(super) fn request(
     let (parts, layers) = match arguments.per_light {
         Some(PerLight::Files) => (PicturePart::each(scene.world(), names), Ok(Vec::new())),
         Some(PerLight::Layers) => {
-            let layers = LightLayer::each(scene.world(), names, centers.as_ref());
+            let has_errors = arguments.error_channel;
+            let layers = LightLayer::each(scene.world(), names, centers.as_ref(), has_errors);
             (Ok(vec![PicturePart::whole()]), layers)
         }
         None => (Ok(vec![PicturePart::whole()]), Ok(Vec::new())),

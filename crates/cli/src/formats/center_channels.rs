@@ -131,7 +131,8 @@ impl CenterValues for Geometry {
     }
 }
 
-/// A channel name, and the source of the channel.
+/// The name of an EXR's channel, and the source of its numbers. The part before the period is the name of its layer, and of
+/// an array. The only component of a layer is `V`, as in the files that Blender writes.
 type Named = (&'static str, Source);
 
 /// The channels of every group, in the order of the file formats without names.
@@ -173,23 +174,23 @@ const CHANNELS: [(CenterChannel, &[Named]); 9] = {
                 ("albedo.B", Value(Albedo, 2)),
             ],
         ),
-        (CenterChannel::Id, &[("id", Id)]),
-        (CenterChannel::Mask, &[("mask", Mask)]),
+        (CenterChannel::Id, &[("id.V", Id)]),
+        (CenterChannel::Mask, &[("mask.V", Mask)]),
         (
             CenterChannel::MeanNormal,
             &[
                 ("mean_normal.X", Average(MeanNormal, 0)),
                 ("mean_normal.Y", Average(MeanNormal, 1)),
                 ("mean_normal.Z", Average(MeanNormal, 2)),
-                ("mean_normal.error", Average(MeanNormal, 3)),
+                ("mean_normal_error.V", Average(MeanNormal, 3)),
             ],
         ),
         (
             CenterChannel::CoverageId,
             &[
-                ("coverage_id", CoverageId),
-                ("coverage.share", Average(Coverage, 0)),
-                ("coverage.error", Average(Coverage, 1)),
+                ("coverage_id.V", CoverageId),
+                ("coverage_share.V", Average(Coverage, 0)),
+                ("coverage_error.V", Average(Coverage, 1)),
             ],
         ),
     ]

@@ -1,11 +1,12 @@
 //! What to render, and how.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::ValueEnum;
-use marbles_core::{Method, Settings, Window};
+use marbles_core::{Method, Settings, Window, World};
 use marbles_scene::Scene;
 
 use super::error::Error;
@@ -18,6 +19,7 @@ use crate::formats::center_channels::{
 };
 use crate::formats::encoding::{Encoding, NpyOptions};
 use crate::sequence::frames::FrameList;
+use crate::sequence::layers::layer_name;
 use crate::sequence::parts::PicturePart;
 use crate::sequence::pattern::Pattern;
 use crate::sequence::request::{Destination, Request};
@@ -104,6 +106,7 @@ impl Options {
         if self.per_light {
             let names = &scene.description().lights;
             let each = PicturePart::each(scene.world(), names).map_err(refused)?;
+            require_own_names(scene.world(), names)?;
             parts.extend(each.into_iter().map(PicturePart::without_centers));
         }
         parts.push(PicturePart::whole());
@@ -157,4 +160,18 @@ fn of_name<T: ValueEnum>(path: &str, name: &str) -> Result<T, Error> {
         let names = names.join(", ");
         Error::Value(format!("{path}: expected one of {names}, found {name:?}"))
     })
+}
+
+/// Refuses lights whose pictures would have the name of another one, such as `sky`.
+fn require_own_names(world: &World, names: &[Option<String>]) -> Result<(), Error> {
+    let mut known = HashSet::new();
+    for light in world.light_parts() {
+        let name = layer_name(light, world.lights.len(), names);
+        if known.contains(&name) {
+            let message = format!("two lights would share the picture `{name}`");
+            return Err(Error::Value(message));
+        }
+        known.insert(name);
+    }
+    Ok(())
 }

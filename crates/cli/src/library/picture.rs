@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use marbles_core::{LightPart, Summary, View};
+use marbles_core::{Summary, View};
 use marbles_scene::Scene;
 
 use super::error::Error;
@@ -55,10 +55,7 @@ impl Picture {
         let mut pictures: Vec<(String, Self)> = Vec::new();
         for collected in collected {
             let part = &parts[collected.part];
-            let name = part.light.map(|light| match light {
-                LightPart::Light(index) => layer_name(index, count, names),
-                LightPart::Ambient => "ambient".to_owned(),
-            });
+            let name = part.light.map(|light| layer_name(light, count, names));
             let picture = Self::new(scene, path, part, collected);
             pictures.push((name.unwrap_or_default(), picture));
         }

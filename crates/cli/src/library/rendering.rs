@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::process;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
@@ -32,6 +33,8 @@ pub struct Rendering {
     pictures: Option<Receiver<Result<Picture, Error>>>,
     cancelled: Arc<AtomicBool>,
     warnings: Vec<String>,
+    /// The process whose threads do the work.
+    process: u32,
 }
 
 /// What happened while a picture was waited for.
@@ -72,6 +75,7 @@ impl Rendering {
             pictures: Some(pictures),
             cancelled,
             warnings,
+            process: process::id(),
         })
     }
 
@@ -102,8 +106,14 @@ impl Rendering {
         }
     }
 
-    /// Ends the work, and waits until it has ended: a few milliseconds, or the time that a tile takes.
+    /// Ends the work, and waits until it has ended: a few milliseconds, or the time that a tile takes. A process that was
+    /// forked from the one that began the work leaves it alone.
     pub fn stop(&mut self) {
+        if self.process != process::id() {
+            // The threads that would close it are the parent's.
+            std::mem::forget(self.pictures.take());
+            return;
+        }
         self.cancelled.store(true, Ordering::Relaxed);
         if let Some(pictures) = self.pictures.take() {
             // Pictures that nobody takes: the end comes behind them.

@@ -34,8 +34,12 @@ fn options(frames: &[i32]) -> Options {
 }
 
 fn begin(options: &Options) -> Result<Rendering, Error> {
+    begin_scene(SCENE, options)
+}
+
+fn begin_scene(text: &str, options: &Options) -> Result<Rendering, Error> {
     let path = Path::new("library.ron");
-    let scene = Scene::parse(SCENE, path).unwrap();
+    let scene = Scene::parse(text, path).unwrap();
     Rendering::begin(&Arc::new(scene), path, options)
 }
 
@@ -167,6 +171,19 @@ fn pictures_of_lights_add_up_and_only_the_whole_has_channels() {
     assert_eq!(found, ["key", "light-2", "ambient"]);
     for (_, mut light) in lights {
         assert_eq!(names(&mut light), ["light", "error", "bound"]);
+    }
+}
+
+#[test]
+fn every_light_has_a_picture_of_its_own_name() {
+    let mut options = options(&[2]);
+    options.per_light = true;
+    for (name, sky) in [("ambient", ""), ("light-2", ""), ("sky", "sky: 0.5, ")] {
+        let text = SCENE.replace("\"key\"", &format!("{name:?}"));
+        let text = text.replace("ambient:", &format!("{sky}ambient:"));
+        let error = begin_scene(&text, &options).err().unwrap();
+        let expected = format!("two lights would share the picture `{name}`");
+        assert!(error.to_string().ends_with(&expected), "{error}");
     }
 }
 

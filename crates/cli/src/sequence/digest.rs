@@ -150,6 +150,13 @@ impl Feed {
     fn world(&mut self, world: &World, spheres: &[Hash]) {
         self.vector(world.ambient);
         self.vector(world.background);
+        // Worlds without a sky have the digests that they had before there were any.
+        if let Some(sky) = world.sky {
+            self.0.update(b"sky");
+            for vector in [sky.above(), sky.below(), sky.up()] {
+                self.vector(vector);
+            }
+        }
         self.integer(world.shadows);
         self.count(world.lights.len());
         world.lights.iter().for_each(|light| self.light(light));
@@ -167,6 +174,10 @@ impl Feed {
             Light::Directional(light) => {
                 self.vector(light.toward());
                 self.vector(light.intensity());
+                if light.diameter() > 0.0 {
+                    self.0.update(b"diameter");
+                    self.number(light.diameter());
+                }
             }
             Light::Point(light) => {
                 self.0.update(b"point light");
@@ -260,7 +271,8 @@ impl Feed {
             Encoding::Exr(ExrOptions { float, error }) => {
                 self.integer(1);
                 self.integer(float);
-                self.integer(error);
+                // One was for errors in channels of other names.
+                self.integer(if error { 2 } else { 0 });
             }
             Encoding::Npy(NpyOptions { error, archive, .. }) => {
                 // Four is for archives, so that the digests of files are what they were.

@@ -6,6 +6,7 @@ use marbles_core::{LightPart, World};
 
 use super::parts::light_number;
 use crate::formats::center_channels::CenterChannels;
+use crate::formats::exr::channels::error_layer;
 
 /// The picture of a part of a world's light, in a layer of the frame's file.
 #[derive(Clone, Debug, Eq, PartialEq)]
@@ -17,35 +18,39 @@ pub(crate) struct LightLayer {
 
 impl LightLayer {
     /// One layer for each part of a world's light. Its name is the name of the light, or else `light-` and its
-    /// [`light_number`], and `ambient` for the rest. Some readers use the names as identifiers, so all of them begin
-    /// with a letter. Refuses names that other channels of the file have.
+    /// [`light_number`], `sky` for the sky and `ambient` for the rest. Some readers use the names as identifiers, so all of them begin
+    /// with a letter. `has_errors` tells whether the errors of each light have a layer, too. Refuses names that other
+    /// channels of the file have.
     pub(crate) fn each(
         world: &World,
         names: &[Option<String>],
         centers: Option<&CenterChannels>,
+        has_errors: bool,
     ) -> Result<Vec<Self>, String> {
         let centers = centers.into_iter().flat_map(CenterChannels::list);
         let of_layer = centers.filter_map(|(name, _)| name.split_once('.'));
-        let others: HashSet<&str> = of_layer.map(|(layer, _)| layer).collect();
+        let mut others: HashSet<String> = of_layer.map(|(layer, _)| layer.to_owned()).collect();
+        others.extend(has_errors.then(|| error_layer("")));
         let mut keys = HashSet::new();
         let count = world.lights.len();
         let layer = |light| {
-            let key = match light {
-                LightPart::Light(index) => layer_name(index, count, names),
-                LightPart::Ambient => "ambient".to_owned(),
-            };
+            let key = layer_name(light, count, names);
             if key.len() > LONGEST {
                 return Err(format!(
                     "the name of a layer has at most {LONGEST} characters, but that of the light `{key}` is longer"
                 ));
             }
-            if others.contains(&*key) {
-                return Err(format!(
-                    "the layer of the light `{key}` would have the name of the channels `{key}`"
-                ));
-            }
-            if !keys.insert(key.clone()) {
-                return Err(format!("two lights would share the layer `{key}`"));
+            let of_errors = has_errors.then(|| error_layer(&key));
+            for layer in [key.clone()].into_iter().chain(of_errors) {
+                if others.contains(&layer) {
+                    return Err(format!(
+                        "a layer of the light `{key}` would have the name of the channels `{layer}`"
+                    ));
+                }
+                if keys.contains(&layer) {
+                    return Err(format!("two lights would share the layer `{layer}`"));
+                }
+                keys.insert(layer);
             }
             Ok(Self { light, name: key })
         };
@@ -53,8 +58,13 @@ impl LightLayer {
     }
 }
 
-/// The name of the layer of one of several lights, of which some may have names.
-pub(crate) fn layer_name(index: usize, count: usize, names: &[Option<String>]) -> String {
+/// The name of the layer of a part of the light, which has several lights, of which some may have names.
+pub(crate) fn layer_name(light: LightPart, count: usize, names: &[Option<String>]) -> String {
+    let index = match light {
+        LightPart::Light(index) => index,
+        LightPart::Sky => return "sky".to_owned(),
+        LightPart::Ambient => return "ambient".to_owned(),
+    };
     let name = names.get(index).and_then(Option::as_deref);
     let numbered = || format!("light-{}", light_number(index, count));
     name.map_or_else(numbered, layer_safe)
@@ -81,12 +91,20 @@ fn layer_safe(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use marbles_core::Light;
+    use marbles_core::{Light, Sky};
 
     use super::*;
     use crate::formats::center_channels::{AxesForm, CenterChannel, DepthForm};
 
     fn layers(names: [Option<&str>; 2], groups: &[CenterChannel]) -> Result<Vec<String>, String> {
+        layers_with(names, groups, false)
+    }
+
+    fn layers_with(
+        names: [Option<&str>; 2],
+        groups: &[CenterChannel],
+        has_errors: bool,
+    ) -> Result<Vec<String>, String> {
         let mut world = World::new();
         for _ in 0..2 {
             world
@@ -95,7 +113,7 @@ mod tests {
         }
         let centers = CenterChannels::new(groups, DepthForm::Axis, AxesForm::World, false, 1e-3);
         let names = names.map(|name| name.map(str::to_owned));
-        let layers = LightLayer::each(&world, &names, Some(&centers))?;
+        let layers = LightLayer::each(&world, &names, Some(&centers), has_errors)?;
         Ok(layers.into_iter().map(|layer| layer.name).collect())
     }
 
@@ -144,6 +162,39 @@ mod tests {
             ),
         ] {
             let message = layers(names, &[group]).unwrap_err();
+            assert!(message.contains(why), "{message}");
+        }
+    }
+
+    #[test]
+    fn the_sky_has_a_layer_of_its_name() {
+        let mut world = World::new();
+        let light = Light::directional(DVec3::Y, DVec3::ONE);
+        world.lights.extend(light);
+        world.sky = Some(Sky::uniform(DVec3::ONE));
+        let layers = |name: &str| {
+            LightLayer::each(&world, &[Some(name.to_owned())], None, false)
+                .map(|layers| layers.into_iter().map(|layer| layer.name).collect())
+        };
+        let found: Vec<String> = layers("sun").unwrap();
+        assert_eq!(found, ["sun", "sky", "ambient"]);
+        let message = layers("sky").unwrap_err();
+        assert_eq!(message, "two lights would share the layer `sky`");
+    }
+
+    #[test]
+    fn layers_of_errors_are_the_only_ones_of_their_names() {
+        for (names, why) in [
+            ([Some("error"), None], "the name of the channels `error`"),
+            (
+                [Some("coverage"), None],
+                "the name of the channels `coverage_error`",
+            ),
+            ([Some("a"), Some("a_error")], "share the layer `a_error`"),
+            ([Some("a_error"), Some("a")], "share the layer `a_error`"),
+        ] {
+            assert!(layers(names, &[CenterChannel::CoverageId]).is_ok());
+            let message = layers_with(names, &[CenterChannel::CoverageId], true).unwrap_err();
             assert!(message.contains(why), "{message}");
         }
     }

@@ -36,7 +36,7 @@ impl PicturePart {
     }
 
     /// One picture for each part of a world's light. `.light-KEY` is added before the extension, where KEY is the name
-    /// of the light or else its [`light_number`], and `.ambient` for the rest.
+    /// of the light or else its [`light_number`], `.sky` for the sky and `.ambient` for the rest.
     pub(crate) fn each(world: &World, names: &[Option<String>]) -> Result<Vec<Self>, String> {
         let mut keys = HashSet::new();
         let count = world.lights.len();
@@ -50,6 +50,7 @@ impl PicturePart {
                     }
                     format!(".light-{key}")
                 }
+                LightPart::Sky => ".sky".to_owned(),
                 LightPart::Ambient => ".ambient".to_owned(),
             };
             Ok(Self {
@@ -90,7 +91,7 @@ impl PicturePart {
     pub(crate) fn names_of<'a>(&self, names: &'a [Option<String>]) -> &'a [Option<String>] {
         match self.light {
             Some(LightPart::Light(index)) => names.get(index..=index).unwrap_or_default(),
-            Some(LightPart::Ambient) => &[],
+            Some(LightPart::Sky | LightPart::Ambient) => &[],
             None => names,
         }
     }
@@ -141,7 +142,7 @@ mod tests {
     use std::path::Path;
 
     use glam::DVec3;
-    use marbles_core::Light;
+    use marbles_core::{Light, Sky};
 
     use super::*;
 
@@ -169,6 +170,18 @@ mod tests {
             PicturePart::whole().path("a.png".into()),
             Path::new("a.png")
         );
+        let mut world = world();
+        world.sky = Some(Sky::uniform(DVec3::ONE));
+        let parts = PicturePart::each(&world, &[Some("sky".to_owned()), None]).unwrap();
+        let paths = parts.iter().map(|part| part.path("a.png".into()));
+        let paths: Vec<PathBuf> = paths.collect();
+        let expected = [
+            "a.light-sky.png",
+            "a.light-2.png",
+            "a.sky.png",
+            "a.ambient.png",
+        ];
+        assert_eq!(paths, expected.map(PathBuf::from));
         let named = PicturePart::named(LightPart::Light(0), "001.png".to_owned());
         assert_eq!(named.path("a/x.png".into()), Path::new("a/001.png"));
     }

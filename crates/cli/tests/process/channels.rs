@@ -70,7 +70,7 @@ fn the_middle_of_a_ball_is_where_it_is() {
     let folder = balls();
     let channels = render(&folder, &format!("balls.ron {ALL}"));
     let names: Vec<&str> = channels.keys().map(|name| &**name).collect();
-    let expected = "B G R albedo.B albedo.G albedo.R depth.Z id mask normal.X normal.Y normal.Z \
+    let expected = "B G R albedo.B albedo.G albedo.R depth.Z id.V mask.V normal.X normal.Y normal.Z \
                     position.X position.Y position.Z";
     assert_eq!(names.join(" "), expected);
     assert_eq!(at(&channels, "depth.Z", 20, 15), 8.0);
@@ -78,9 +78,9 @@ fn the_middle_of_a_ball_is_where_it_is() {
     assert_eq!(vector(&channels, "position", 20, 15), [1.0, 2.0, 11.0]);
     let albedo = ["R", "G", "B"].map(|part| at(&channels, &format!("albedo.{part}"), 20, 15));
     assert_eq!(albedo, [0.75, 0.25, 0.125]);
-    assert_eq!(at(&channels, "mask", 20, 15), 1.0);
+    assert_eq!(at(&channels, "mask.V", 20, 15), 1.0);
     // The other ball's center is 15 pixels to the right.
-    let FlatSamples::U32(ids) = &channels["id"] else {
+    let FlatSamples::U32(ids) = &channels["id.V"] else {
         panic!("{:?}", channels["id"]);
     };
     assert_eq!(
@@ -91,7 +91,7 @@ fn the_middle_of_a_ball_is_where_it_is() {
     assert_eq!(at(&channels, "depth.Z", 0, 0), f32::INFINITY);
     assert_eq!(vector(&channels, "normal", 0, 0), [0.0; 3]);
     assert_eq!(vector(&channels, "position", 0, 0), [0.0; 3]);
-    assert_eq!(at(&channels, "mask", 0, 0), 0.0);
+    assert_eq!(at(&channels, "mask.V", 0, 0), 0.0);
 }
 
 #[test]
@@ -169,7 +169,7 @@ fn all_channels_but_numbers_of_spheres_are_floats() {
         assert!(channels.len() > 3);
         for (name, values) in channels {
             let is_float = matches!(values, FlatSamples::F32(_));
-            assert_eq!(is_float, !name.ends_with("id"), "{options}: {name}");
+            assert_eq!(is_float, !name.ends_with("id.V"), "{options}: {name}");
         }
     }
     let small = render(&folder, "balls.ron --channels depth,id --half");
@@ -236,14 +236,14 @@ fn arrays_hold_the_same_in_doubles() {
         ]
     );
     let names = "depth.Z normal.X normal.Y normal.Z position.X position.Y position.Z \
-                 albedo.R albedo.G albedo.B mask";
+                 albedo.R albedo.G albedo.B mask.V";
     let names: Vec<&str> = names.split(' ').collect();
     let bytes = folder.read("b_channels.npy");
     let (doubles, _) = bytes[bytes.len() - 41 * 31 * 8 * names.len()..].as_chunks::<8>();
     let bytes = folder.read("b_id.npy");
     let (ids, _) = bytes[bytes.len() - 41 * 31 * 4..].as_chunks::<4>();
-    let FlatSamples::U32(expected) = &floats["id"] else {
-        panic!("{:?}", floats["id"]);
+    let FlatSamples::U32(expected) = &floats["id.V"] else {
+        panic!("{:?}", floats["id.V"]);
     };
     for pixel in 0..41 * 31 {
         assert_eq!(u32::from_le_bytes(ids[pixel]), expected[pixel]);
@@ -298,17 +298,17 @@ fn averages_are_stored_beside_them() {
     let options = "--channels id,mean_normal,coverage_id";
     let channels = render(&folder, &format!("balls.ron {options}"));
     let names: Vec<&str> = channels.keys().map(|name| &**name).collect();
-    let expected = "B G R coverage.error coverage.share coverage_id id mean_normal.X mean_normal.Y mean_normal.Z \
-                    mean_normal.error";
+    let expected = "B G R coverage_error.V coverage_id.V coverage_share.V id.V mean_normal.X mean_normal.Y mean_normal.Z \
+                    mean_normal_error.V";
     assert_eq!(names.join(" "), expected);
     // The middle of a ball, in which the normals turn alike to all sides, and a corner.
     let normal = vector(&channels, "mean_normal", 20, 15);
     assert!(normal[0].abs() < 1e-3 && normal[1].abs() < 1e-3 && (normal[2] + 1.0).abs() < 4e-3);
-    assert!(at(&channels, "mean_normal.error", 20, 15) <= 1e-3);
-    assert_eq!(at(&channels, "coverage.share", 20, 15), 1.0);
+    assert!(at(&channels, "mean_normal_error.V", 20, 15) <= 1e-3);
+    assert_eq!(at(&channels, "coverage_share.V", 20, 15), 1.0);
     assert_eq!(vector(&channels, "mean_normal", 0, 0), [0.0; 3]);
-    let FlatSamples::U32(ids) = &channels["coverage_id"] else {
-        panic!("{:?}", channels["coverage_id"]);
+    let FlatSamples::U32(ids) = &channels["coverage_id.V"] else {
+        panic!("{:?}", channels["coverage_id.V"]);
     };
     assert_eq!(
         [ids[0], ids[15 * 41 + 20], ids[15 * 41 + 35]],
@@ -316,7 +316,7 @@ fn averages_are_stored_beside_them() {
     );
     for row in 0..31 {
         for col in 0..41 {
-            let share = at(&channels, "coverage.share", col, row);
+            let share = at(&channels, "coverage_share.V", col, row);
             assert_eq!(share == 0.0, ids[row * 41 + col] == u32::MAX);
         }
     }

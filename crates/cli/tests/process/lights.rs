@@ -128,6 +128,56 @@ fn each_file_is_that_of_the_scene_with_this_light() {
     assert!(!folder.path("a.png").exists());
 }
 
+/// Suns and the sky have files of their own, too, and so does each layer.
+#[test]
+fn each_file_is_that_of_the_scene_with_this_soft_light() {
+    let sun = "Directional(toward: (-1, 1, -1), intensity: 0.5, diameter: 8)";
+    let sky = "sky: (above: (0.125, 0.25, 0.5), below: 0.0625),";
+    let folder = Folder::new();
+    let write = |name: &str, light: &str| {
+        fs::write(folder.path(&format!("{name}.ron")), balls(light)).unwrap();
+    };
+    write(
+        "all",
+        &format!("{SURROUNDINGS} {sky} lights: [{sun}, {}],", LIGHTS[1]),
+    );
+    write("ambient", SURROUNDINGS);
+    write("sky", sky);
+    write("light-1", &format!("lights: [{sun}],"));
+    write("light-2", &format!("lights: [{}],", LIGHTS[1]));
+    for options in ["--tolerance 0.03125", "--samples 2 --alpha"] {
+        let options = format!("{options} --size 25x18");
+        run(
+            &folder,
+            &format!("render all.ron --per-light -o a.npy {options}"),
+        );
+        for key in ["light-1", "light-2", "sky", "ambient"] {
+            run(
+                &folder,
+                &format!("render {key}.ron -o b.{key}.npy {options}"),
+            );
+            let [found, expected] =
+                ["a", "b"].map(|name| folder.read(&format!("{name}.{key}.npy")));
+            assert!(found == expected, "{key} {options}");
+        }
+    }
+    let layers = "render all.ron --per-light=layers -o all.exr --samples 1 --size 25x18";
+    run(&folder, layers);
+    let names: Vec<String> = read(&folder, "all.exr").into_keys().collect();
+    let expected = "B G R ambient.B ambient.G ambient.R light-1.B light-1.G light-1.R light-2.B light-2.G light-2.R \
+                    sky.B sky.G sky.R";
+    assert_eq!(names.join(" "), expected);
+    let named = folder
+        .run("render all.ron --per-light=layers -o b.exr --samples 1 --set lights[0].name=\"sky\"");
+    assert_eq!(code(&named), 2);
+    let message = "two lights would share the layer `sky`";
+    assert!(
+        text(&named.stderr).contains(message),
+        "{}",
+        text(&named.stderr)
+    );
+}
+
 /// The same with an open shutter, a parallel lens, a light between the balls and a light at the camera.
 #[test]
 fn each_file_is_that_of_the_scene_with_this_light_in_motion() {
@@ -237,13 +287,14 @@ fn layers_hold_what_files_do() {
     let mut count = plain.len();
     for (layer, key) in LAYERS.into_iter().zip(KEYS) {
         let file = read(&folder, &format!("a.{key}.exr"));
-        for name in ["R", "G", "B", "error"] {
+        for name in ["R", "G", "B"] {
             assert!(
                 file[name] == layers[&format!("{layer}.{name}")],
                 "{layer}.{name}"
             );
-            count += 1;
         }
+        assert!(file["error.V"] == layers[&format!("{layer}_error.V")]);
+        count += 4;
     }
     assert_eq!(layers.len(), count);
 
@@ -252,15 +303,15 @@ fn layers_hold_what_files_do() {
     for color in ["R", "G", "B"] {
         for pixel in 0..50 * 37 {
             let sum = |channel: &str| -> f64 {
-                let numbers = LAYERS.map(|layer| format!("{layer}.{channel}"));
+                let numbers = LAYERS.map(|layer| format!("{layer}{channel}"));
                 numbers
                     .map(|name| f64::from(floats(&layers, &name)[pixel]))
                     .iter()
                     .sum()
             };
             let picture = f64::from(floats(&layers, color)[pixel]);
-            let error = sum("error") + f64::from(floats(&layers, "error")[pixel]);
-            let off = (sum(color) - picture).abs();
+            let error = sum("_error.V") + f64::from(floats(&layers, "error.V")[pixel]);
+            let off = (sum(&format!(".{color}")) - picture).abs();
             assert!(off <= error + 1e-6, "{color} {pixel}: {off} {error}");
             largest = largest.max(picture);
         }
@@ -331,7 +382,7 @@ fn layers_are_refused_where_there_can_be_none() {
         ),
         (
             "named.ron -o a.exr --channels depth",
-            "the layer of the light `depth` would have the name of the channels `depth`",
+            "a layer of the light `depth` would have the name of the channels `depth`",
         ),
     ] {
         let output = folder.run(&format!("render {arguments} --per-light=layers"));

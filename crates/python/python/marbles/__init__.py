@@ -25,7 +25,7 @@ from .columns import Between, Constant, Diverging, Every, Exponential, Is, Lengt
 from .comparison import Comparison, compare
 from .data import dataset
 from .faults import SceneWarning
-from .lights import Directional, Point, Surface, Units
+from .lights import Directional, Point, Sky, Surface, Units
 from .motion import Keyframes, Turntable
 from .picture import Picture
 from .scene import Scene, load, loads, spheres
@@ -63,6 +63,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "SceneWarning",
+    "Sky",
     "Spheres",
     "Surface",
     "Turntable",

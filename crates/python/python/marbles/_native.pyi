@@ -120,7 +120,10 @@ class Rendering:
     warnings: list[str]
     """Mistakes in the first frame, such as a camera that sees no sphere."""
     def next(self) -> Picture | None:
-        """Waits for the next picture; None after the last one. Ctrl-C ends the rendering with KeyboardInterrupt."""
+        """Waits for the next picture; None after the last one. Ctrl-C ends the rendering with KeyboardInterrupt.
+
+        Raises SceneError if a table of the frame is refused, and RenderError.
+        """
 
     def stop(self) -> None:
         """Ends the work. Does nothing if it has ended."""
@@ -132,7 +135,10 @@ class Picture:
     frame: int
     """The number of the frame."""
     arrays: dict[str, NDArray[Any]]
-    """`light`, `error`, `bound` and the channels by their names, each (height, width) or (height, width, n)."""
+    """`light`, `error`, `bound` and the channels by their names, each (height, width) or (height, width, n).
+
+    They are float64; `bound` is bool, and indices of spheres are uint32.
+    """
     per_light: list[tuple[str, Picture]]
     """The pictures of single lights by name, that of the ambient light last; empty if they were not asked for."""
     over: int
@@ -153,10 +159,10 @@ class Picture:
         error: bool,
         sidecar: bool,
     ) -> None:
-        """Writes the picture in the format that the ending of the name chooses."""
+        """Writes the picture in the format that the ending of the name chooses. Raises ValueError or OSError."""
 
     def to_srgb(self) -> NDArray[np.uint8]:
-        """The codes of the 8-bit PNG, (height, width, 3), or (height, width, 4) with alpha."""
+        """The codes of the 8-bit PNG, (height, width, 3), uint8, or (height, width, 4) with alpha."""
 
     def png(self) -> bytes:
         """The bytes of the 8-bit PNG."""

@@ -19,26 +19,32 @@ class Camera:
     """
 
     K: NDArray[np.float64] | None
-    """The matrix of the camera, (3, 3), in pixels; None for a parallel lens."""
+    """The matrix of the camera, (3, 3), float64, in pixels; None for a parallel lens."""
     R: NDArray[np.float64]
-    """The rotation, (3, 3), with determinant 1."""
+    """The rotation, (3, 3), float64, with determinant 1."""
     t: NDArray[np.float64]
-    """The translation, (3,), in scene units."""
+    """The translation, (3,), float64, in scene units."""
     position: NDArray[np.float64]
-    """The viewpoint −Rᵀ t, (3,), in the world with z negated."""
+    """The viewpoint −Rᵀ t, (3,), float64, in scene units, in the world with z negated."""
     pixels_per_unit: float | None = None
-    """Only for a parallel lens, whose pixel is pixels_per_unit · (x, y)_camera + principal_point."""
+    """Only for a parallel lens, whose pixel is pixels_per_unit · (x, y)_camera + principal_point.
+
+    In pixels per scene unit.
+    """
     principal_point: NDArray[np.float64] | None = None
-    """Only for a parallel lens: (2,), in pixels."""
+    """Only for a parallel lens: (2,), float64, in pixels."""
 
     def project(self, points: ArrayLike) -> NDArray[np.float64]:
         """The pixels that see points of the scene, as (column, row); (0, 0) is the center of the first pixel.
 
         Args:
-            points: (n, 3) or (3,), in the axes of the scene: x right, y up, z forward.
+            points: (n, 3) or (3,), in scene units and in the axes of the scene: x right, y up, z forward.
 
         Returns:
-            (n, 2) or (2,). NaN for points that are not in front of the viewpoint.
+            (n, 2) or (2,), float64, in pixels. NaN for points that are not in front of the viewpoint.
+
+        Raises:
+            ValueError: The last axis of `points` is not 3 long, or what is given is no array of numbers.
         """
         given = np.asarray(points, np.float64)
         if given.shape[-1:] != (3,):

@@ -133,7 +133,11 @@ class Spheres:
 
     @property
     def records(self) -> NDArray[Any]:
-        """The records of the table, (n,), with the fields `pos`, and as given `radius`, `color`, `value`; read-only."""
+        """The records of the table, (n,), read-only: `pos`, and as given `radius`, `color`, `value`.
+
+        `pos` and `color` are (n, 3), `radius` and `value` (n,). Their numbers are float32 where they were given as
+        such, uint8 for codes of sRGB, and else float64.
+        """
         return self._records
 
     def npy(self) -> bytes:

@@ -50,7 +50,7 @@ def dataset(
         Whether every pixel is within the tolerance.
 
     Raises:
-        ValueError: An option that cannot be.
+        TypeError, ValueError: An option that cannot be.
         RenderError: The command failed; the message is its own, or on stderr with `progress`.
         KeyboardInterrupt: The command was interrupted.
     """

@@ -12,8 +12,9 @@ class Keyframes(Variant):
     """Numbers of the camera and of lights that change between keys.
 
     A key is a dict. It has a `frame`, and the numbers at this frame: of the camera, such as `pan`, `position` or
-    `zoom`, or with `light`, the name of a light, its `toward`, `position`, `direction`, `mu` or `intensity`. Its
-    `ease` is the way to the next key: `"Smooth"` (the default), `"Linear"` or `"Hold"`.
+    `zoom`, or with `light`, the name of a light, its `toward`, `position`, `direction`, `mu`, `intensity` or `diameter`.
+    Its `ease` is the way to the next key: `"Smooth"` (the default), `"Linear"` or `"Hold"`. Lengths are in scene units,
+    angles in degrees.
 
     Args:
         keys: The keys, such as `[dict(frame=1, pan=0), dict(frame=60, pan=30, ease="Linear")]`.

@@ -32,33 +32,33 @@ class Picture:
 
     @property
     def light(self) -> NDArray[np.float64]:
-        """Linear light, (height, width, 3): Rec. 709; 1 is a white surface that faces a light of intensity 1.
+        """Linear light, (height, width, 3), float64: Rec. 709; 1 is a white surface that faces a light of intensity 1.
 
-        With alpha (height, width, 4): colors are premultiplied, and alpha is last.
+        With alpha (height, width, 4): colors are premultiplied, and alpha is last, from 0 to 1.
         """
         return self._arrays["light"]
 
     @property
     def error(self) -> NDArray[np.float64]:
-        """What is claimed, (height, width): every channel of the pixel is this near to its exact value, or nearer.
+        """What is claimed, (height, width), float64: every channel of `light` is this near to its exact value.
 
-        Infinite where the error is unknown.
+        In the unit of `light`. Infinite where the error is unknown.
         """
         return self._arrays["error"]
 
     @property
     def bound(self) -> NDArray[np.bool_]:
-        """Where the error is a proved bound and not an estimate, (height, width)."""
+        """Where the error is a proved bound and not an estimate, (height, width), bool."""
         return self._arrays["bound"]
 
     @property
     def over(self) -> int:
-        """The number of pixels whose error exceeds the tolerance."""
+        """The number of pixels whose error exceeds the tolerance; 0 with `samples`."""
         return self._native.over
 
     @property
     def largest_error(self) -> float:
-        """The largest error of any pixel; infinite if it is unknown."""
+        """The largest error of any pixel, in the unit of `light`; infinite if it is unknown."""
         return self._native.largest_error
 
     @property
@@ -78,7 +78,15 @@ class Picture:
         return tuple(name for name in self._arrays if name not in _OWN)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        """The array of a channel, (height, width) or (height, width, n). Raises KeyError with the names there are."""
+        """The array of a channel, or `light`, `error`, `bound`.
+
+        Numbers such as `depth` are (height, width), float64. Normals, positions and colors are (height, width, 3),
+        float64. `id` and `coverage_id` are (height, width), uint32, with 0xffffffff where no sphere is seen. Depths and
+        positions are in scene units; depths are infinite where no sphere is seen, and all other numbers 0.
+
+        Raises:
+            KeyError: No such array; the message has the names there are.
+        """
         try:
             return self._arrays[name]
         except KeyError:
@@ -92,7 +100,7 @@ class Picture:
 
     @cached_property
     def per_light(self) -> dict[str, Picture]:
-        """The pictures of single lights by name, "light-1" and so on if they have none, and "ambient".
+        """The pictures of single lights by name, "light-1" and so on if they have none, "sky", and "ambient".
 
         Their sum is the picture, within the errors of all. Empty if they were not asked for.
         """
@@ -100,13 +108,16 @@ class Picture:
 
     @cached_property
     def sidecar(self) -> dict[str, Any]:
-        """The camera, the lights and the results as the command writes them beside a picture."""
+        """The camera, the lights and the results as the command writes them beside a picture.
+
+        Lengths are in scene units and angles in degrees; the camera is in OpenCV's conventions, in pixels.
+        """
         sidecar: dict[str, Any] = json.loads(self._native.sidecar)
         return sidecar
 
     @cached_property
     def camera(self) -> Camera:
-        """The camera in OpenCV's conventions: K, R, t."""
+        """The camera in OpenCV's conventions: K in pixels, R, and t in scene units."""
         return camera_of(self.sidecar)
 
     def save(
@@ -156,7 +167,7 @@ class Picture:
             raise ValueError(message) from None
 
     def to_srgb(self) -> NDArray[np.uint8]:
-        """The codes of the 8-bit PNG: (height, width, 3), or (height, width, 4) with straight alpha."""
+        """The sRGB codes of the 8-bit PNG, (height, width, 3), uint8; with straight alpha (height, width, 4)."""
         return self._native.to_srgb()
 
     def _repr_png_(self) -> bytes:

@@ -40,7 +40,7 @@ CHOICES = frozenset(
 )
 
 # Fields that are colors.
-COLORS = frozenset({"albedo", "ambient", "background", "color", "intensity"})
+COLORS = frozenset({"above", "albedo", "ambient", "background", "below", "color", "intensity", "sky"})
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 _CHOICE = re.compile(r"[A-Z][A-Za-z0-9_]*", re.ASCII)

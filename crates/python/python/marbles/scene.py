@@ -17,6 +17,7 @@ from .camera import Camera, camera_of
 from .cloud import Spheres
 from .draft import Draft
 from .faults import SceneWarning, python_paths, warn
+from .lights import Sky
 from .options import Axes, Depth, checked, whole
 from .picture import Picture
 from .sequence import Frames
@@ -26,8 +27,8 @@ Named: TypeAlias = Union[Variant, Mapping[str, object]]
 """A value with a name: a variant, or a dict such as `{"Fov": 40}`."""
 
 _FIELDS = (
-    "image", "lens", "camera", "zoom", "unit", "background", "ambient", "shadows", "lights", "materials", "spheres",
-    "clouds", "animation",
+    "image", "lens", "camera", "zoom", "unit", "background", "ambient", "sky", "shadows", "lights", "materials",
+    "spheres", "clouds", "animation",
 )  # fmt: skip
 
 
@@ -45,6 +46,7 @@ class Scene:
         unit: The unit of lengths, which scale bars show.
         background: The color where there is no sphere; 0 by default.
         ambient: The color of the light that reaches every point; 0 by default.
+        sky: The light from all directions that no sphere hides: a color, or `Sky` with two; none by default.
         shadows: Whether spheres cast shadows; True by default.
         lights: `Directional` and `Point`.
         materials: Dicts by name, with `albedo`, `exponent`, `highlight`, `rough`, `outline`.
@@ -74,6 +76,7 @@ class Scene:
         unit: str | None = None,
         background: Color | None = None,
         ambient: Color | None = None,
+        sky: Color | Sky | Mapping[str, object] | None = None,
         shadows: bool | None = None,
         lights: Sequence[Named] = (),
         materials: Mapping[str, Mapping[str, object]] | None = None,
@@ -82,7 +85,7 @@ class Scene:
         animation: Named | None = None,
     ) -> None:
         values = (
-            image, lens, camera, zoom, unit, background, ambient, shadows, lights, materials, spheres, clouds,
+            image, lens, camera, zoom, unit, background, ambient, sky, shadows, lights, materials, spheres, clouds,
             animation,
         )  # fmt: skip
         made = draft.new(dict(zip(_FIELDS, values)))
@@ -117,7 +120,7 @@ class Scene:
 
     @property
     def frames_per_second(self) -> float | None:
-        """The speed of the animation; None for a still."""
+        """The speed of the animation, in frames per second; None for a still."""
         return self._native.frames_per_second
 
     @property
@@ -151,7 +154,10 @@ class Scene:
         """Writes the scene in RON, and its arrays of spheres as NAME_spheres.npy beside it.
 
         No file has its name before it is complete. Names of other tables are changed so that they lead to the same
-        files. Raises OSError if a file cannot be written.
+        files.
+
+        Raises:
+            OSError: A file cannot be written.
         """
         files.save(self._draft, Path(self._file).parent, Path(path).absolute())
 
@@ -175,6 +181,7 @@ class Scene:
 
         Args:
             tolerance: The largest error of every channel of every pixel, absolute, in linear light; 1e-3 by default.
+                Pixels over it are no error: `Picture.over` counts them.
             samples: samples² rays per pixel instead, whatever the error.
             frame: The number of the frame; by default the first one of the animation, or 1.
             channels: `depth`, `normal`, `position`, `albedo`, `id`, `mask` of the ray through the center of each pixel;
@@ -225,8 +232,13 @@ class Scene:
         Args:
             frames: Their numbers, in the order of rendering, such as `range(1, 11)`; all frames by default.
 
-        The other arguments and the errors are those of `render`. Leaving the loop early ends the work when the iterator
-        is dropped or closed.
+        The other arguments are those of `render`. Leaving the loop early ends the work when the iterator is dropped or
+        closed.
+
+        Raises:
+            TypeError, ValueError: Options that cannot be; a frame that the scene does not have, or that comes twice.
+
+        While pictures are taken, the errors are those of `Frames`.
         """
         options = checked(
             tolerance, samples=samples, channels=channels, per_light=per_light, alpha=alpha, depth=depth, axes=axes,
@@ -246,8 +258,13 @@ class Scene:
     def spheres_table(self, frame: int | None = None) -> dict[str, NDArray[Any]]:
         """The spheres of a frame, in the order of the channel `id`, as columns of a table, such as a DataFrame.
 
-        `x`, `y`, `z`: the centers in the scene's axes; `radius`; `red`, `green`, `blue`: the linear albedo, all
-        float64; `material`: the names of materials, empty for matte white.
+        Every column is an array (n,). `x`, `y`, `z` and `radius` are float64, in scene units and in the scene's axes;
+        `red`, `green` and `blue` are float64, the linear albedo; `material` has the names of materials as texts, empty
+        for matte white. `frame` is the first one by default.
+
+        Raises:
+            TypeError, ValueError: A frame that the scene does not have.
+            SceneError: A table of this frame is refused.
         """
         native = self._native.spheres(self._frame(frame))
         warn(self._native.take_warnings(), 2)
@@ -257,7 +274,13 @@ class Scene:
         return table | {"material": names[np.minimum(native["material"], len(names) - 1)]}
 
     def camera(self, frame: int | None = None) -> Camera:
-        """The camera of a frame in OpenCV's conventions: K, R, t."""
+        """The camera of a frame in OpenCV's conventions: K in pixels, R, and t in scene units.
+
+        `frame` is the first one by default.
+
+        Raises:
+            TypeError, ValueError: A frame that the scene does not have.
+        """
         return camera_of(json.loads(self._native.sidecar(self._frame(frame), None)))
 
     def _frame(self, frame: int | None, name: str = "frame") -> int:
@@ -310,6 +333,7 @@ def loads(text: str, folder: str | os.PathLike[str] = ".") -> Scene:
 
     Raises:
         SceneError: The scene is refused; `path`, `line` and `column` tell where.
+        TypeError: `text` is no text.
     """
     if not isinstance(text, str):
         raise TypeError(f"text: expected a scene as a text, found {type(text).__name__}")
@@ -318,5 +342,10 @@ def loads(text: str, folder: str | os.PathLike[str] = ".") -> Scene:
 
 
 def spheres(scene: Scene, frame: int | None = None) -> dict[str, NDArray[Any]]:
-    """The spheres of a frame as columns of a table: the same as `scene.spheres_table(frame)`."""
+    """The spheres of a frame as columns (n,) of a table, float64 and texts: the same as `scene.spheres_table(frame)`.
+
+    Raises:
+        TypeError, ValueError: A frame that the scene does not have.
+        SceneError: A table of this frame is refused.
+    """
     return scene.spheres_table(frame)

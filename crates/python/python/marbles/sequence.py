@@ -17,7 +17,14 @@ if TYPE_CHECKING:
 class Frames(Iterator[Picture]):
     """An iterator of pictures. The scene is prepared once for all of them.
 
-    `close()` ends the work early, and so does leaving a `with` block, or dropping the iterator.
+    `close()` ends the work early, and so does leaving a `with` block, or dropping the iterator. Pictures come in the
+    order of the frames that were asked for.
+
+    Raises:
+        SceneError: While pictures are taken: a table of a frame is refused.
+        RenderError: While pictures are taken: the rendering failed, or it belongs to the process that this one was
+            forked from.
+        KeyboardInterrupt: While pictures are taken: Ctrl-C, which ends the work.
     """
 
     def __init__(self, scene: _native.Scene, frames: Sequence[int], options: Options) -> None:

@@ -31,7 +31,8 @@ class Variant:
     """A value with a name: `Variant("Fov", 40)` is `Fov(40)`, `Variant("Free", pan=15)` is `Free(pan: 15)`.
 
     The classes of this package, such as `marbles.Fov`, are variants with their own signatures. This class itself
-    writes any other variant of a scene file. A variant cannot be changed. Fields that are None are left out.
+    writes any other variant of a scene file. A variant cannot be changed. Fields that are None are left out. The scene
+    that a variant is given to checks its numbers, and refuses them with `SceneError`.
 
     Args:
         name: The name in the scene file.

@@ -11,7 +11,7 @@ class Fov(Variant):
     """A lens with a horizontal field of view.
 
     Args:
-        degrees: The angle, greater than 0 and less than 180.
+        degrees: The angle in degrees, greater than 0 and less than 180.
     """
 
     __slots__ = ()
@@ -21,7 +21,7 @@ class Fov(Variant):
 
 
 class Retina(Variant):
-    """A lens given by its retina, the rectangle through which the camera looks.
+    """A lens given by its retina, the rectangle through which the camera looks. Lengths are in scene units.
 
     Args:
         width: The width of the retina, greater than 0.
@@ -41,8 +41,8 @@ class Matrix(Variant):
     The point (0, 0) is the center of the first pixel. If fx and fy differ, pixels are rectangles.
 
     Args:
-        fx, fy: The focal lengths, greater than 0.
-        cx, cy: The principal point.
+        fx, fy: The focal lengths in pixels, greater than 0.
+        cx, cy: The principal point in pixels.
     """
 
     __slots__ = ()
@@ -56,7 +56,7 @@ class Parallel(Variant):
 
     Args:
         width: The width of the picture in scene units, greater than 0.
-        shift: The way of its center to the right and up; (0, 0) by default.
+        shift: The way of its center to the right and up, in scene units; (0, 0) by default.
     """
 
     __slots__ = ()
@@ -66,7 +66,7 @@ class Parallel(Variant):
 
 
 class Free(Variant):
-    """A camera at a position. By default it is at the origin and looks along z.
+    """A camera at a position, in scene units; angles are in degrees. By default it is at the origin and looks along z.
 
     Args:
         position: The viewpoint.
@@ -88,7 +88,7 @@ class Free(Variant):
 
 
 class LookAt(Variant):
-    """A camera that looks at a target.
+    """A camera that looks at a target. Points are in scene units, angles in degrees.
 
     Args:
         position: The viewpoint.
@@ -103,7 +103,7 @@ class LookAt(Variant):
 
 
 class Orbit(Variant):
-    """A camera that looks at a target from a distance.
+    """A camera that looks at a target from a distance. Lengths are in scene units, angles in degrees.
 
     Args:
         target: The point that is shown at the center of the picture.
@@ -130,7 +130,7 @@ class Frame(Variant):
     """An orbit whose target and radius are chosen so that all spheres are in the picture.
 
     Args:
-        azimuth, elevation, roll: As for `Orbit`; 0 by default.
+        azimuth, elevation, roll: As for `Orbit`, in degrees; 0 by default.
         fill: The part of the picture that the spheres fill, greater than 0 and at most 1; 0.9 by default.
         frame_over: `"Series"` (the default) for the spheres of all steps of tables, `"Step"` for those of the
             frame's step.
@@ -158,7 +158,7 @@ class Pose(Variant):
 
     Args:
         rotation: R, an array (3, 3) or nine numbers row by row. It may differ from a rotation by rounding only.
-        translation: t, three numbers.
+        translation: t, three numbers in scene units.
         axes: The axes in which both are given.
     """
 

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::Up;
 use crate::text::{Placed, present};
 use crate::values::{
-    Axis, Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Mu,
-    Point, Radius, Rotation, Shutter, Swing, Turns, Zoom,
+    Axis, Color, Degrees, Diameter, Fill, Frame, FrameCount, FrameRange, FramesPerSecond,
+    LightName, Mu, Point, Radius, Rotation, Shutter, Swing, Turns, Zoom,
 };
 
 /// The camera; a `Free` one stands at the origin and looks along z by default.
@@ -155,6 +155,8 @@ pub(crate) struct Key {
     pub(crate) mu: Option<Placed<Mu>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) intensity: Option<Placed<Color>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) diameter: Option<Placed<Diameter>>,
     #[serde(default)]
     pub(crate) ease: Placed<Ease>,
 }
@@ -269,7 +271,7 @@ impl Animation {
 
 impl Key {
     /// Every channel with the place of its value, where the key names it.
-    pub(crate) fn channels(&self) -> [(&'static str, Option<Range<usize>>); 13] {
+    pub(crate) fn channels(&self) -> [(&'static str, Option<Range<usize>>); 14] {
         fn place<T>(channel: &Option<Placed<T>>) -> Option<Range<usize>> {
             channel.as_ref().map(|value| value.place.clone())
         }
@@ -287,6 +289,7 @@ impl Key {
             ("direction", place(&self.direction)),
             ("mu", place(&self.mu)),
             ("intensity", place(&self.intensity)),
+            ("diameter", place(&self.diameter)),
         ]
     }
 }

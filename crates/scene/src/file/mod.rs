@@ -7,6 +7,7 @@ mod camera;
 mod cloud;
 mod names;
 mod outline;
+mod sky;
 mod table;
 
 use serde::de::{MapAccess, Visitor};
@@ -17,12 +18,13 @@ pub(crate) use self::cloud::{
     Cloud, ColorScale, Columns, End, OTHERS_COLOR, Others, RadiusLaw, TakenFrames, Up,
 };
 pub(crate) use self::outline::{Outline, Width};
+pub(crate) use self::sky::Sky;
 pub(crate) use self::table::{ElementRadii, Keep, Palette, RadiusColumn, Test, Wanted};
 use crate::text::{Placed, present};
 use crate::values::{
-    Amplitude, Color, Coordinate, Exponent, FieldOfView, Flag, FocalLength, GrainSize, ImageSide,
-    LightName, MaterialName, Mu, Point, Radius, Reference, RetinaDistance, RetinaWidth, Seed,
-    Shift, Shininess, Strength, UnitName, Zoom,
+    Amplitude, Color, Coordinate, Diameter, Exponent, FieldOfView, Flag, FocalLength, GrainSize,
+    ImageSide, LightName, MaterialName, Mu, Point, Radius, Reference, RetinaDistance, RetinaWidth,
+    Seed, Shift, Shininess, Strength, UnitName, Zoom,
 };
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.
@@ -40,6 +42,8 @@ pub(crate) struct File {
     pub(crate) background: Placed<Color>,
     #[serde(default = "black")]
     pub(crate) ambient: Placed<Color>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) sky: Option<Placed<Sky>>,
     #[serde(default = "cast_shadows")]
     pub(crate) shadows: Placed<Flag>,
     #[serde(default)]
@@ -87,7 +91,7 @@ pub(crate) enum Lens {
     },
 }
 
-/// A light; its intensity is 1 by default, and it is at rest in the world.
+/// A light; its intensity is 1 by default, its diameter 0, and it is at rest in the world.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Light {
@@ -99,6 +103,8 @@ pub(crate) enum Light {
         attached: Option<Placed<Attached>>,
         #[serde(default = "white")]
         intensity: Placed<Color>,
+        #[serde(default)]
+        diameter: Placed<Diameter>,
     },
     Point {
         #[serde(default, deserialize_with = "present")]
@@ -147,7 +153,7 @@ impl Light {
     /// The channels that keys of this light may name.
     pub(crate) fn channels(&self) -> &'static [&'static str] {
         match self {
-            Self::Directional { .. } => &["toward", "intensity"],
+            Self::Directional { .. } => &["toward", "intensity", "diameter"],
             Self::Point {
                 direction: None, ..
             } => &["position", "intensity"],

@@ -1,5 +1,7 @@
 //! The lights of a scene over time: at rest, through keys, on a turntable, and attached to the camera.
 
+use std::f64::consts::PI;
+
 use glam::{DMat3, DVec3};
 use marbles_core::{
     Camera, DirectionalLight, Emission as CoreEmission, Light as CoreLight, LightFalloff,
@@ -48,9 +50,12 @@ struct Emission {
 }
 
 /// The kind of a light.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Kind {
-    Directional,
+    Directional {
+        /// In degrees.
+        diameter: Curve,
+    },
     Point {
         falloff: LightFalloff,
         /// `None` until it is chosen, where the file names none.
@@ -185,9 +190,14 @@ impl Light {
         };
         let intensity = self.intensity.at(time);
         match self.kind {
-            Kind::Directional => DirectionalLight::new(direction(place), intensity)
-                .map(CoreLight::from)
-                .map_err(|_| FrameFault::LightNowhere as _),
+            Kind::Directional { ref diameter } => {
+                // Rounding must not lead a curve, or an angle just below 180 degrees, out of the range.
+                let diameter = diameter.at(time).to_radians().clamp(0.0, PI.next_down());
+                DirectionalLight::new(direction(place), intensity)
+                    .and_then(|light| light.with_diameter(diameter))
+                    .map(CoreLight::from)
+                    .map_err(|_| FrameFault::LightNowhere as _)
+            }
             Kind::Point { falloff, reference } => {
                 // Where it is not chosen, nothing depends on it.
                 let reference = reference.unwrap_or(1.0);
@@ -211,9 +221,9 @@ impl Light {
 }
 
 impl Kind {
-    fn lacks_reference(self) -> bool {
+    fn lacks_reference(&self) -> bool {
         let falls_off = LightFalloff::InverseSquare;
-        matches!(self, Self::Point { falloff, reference: None } if falloff == falls_off)
+        matches!(self, Self::Point { falloff, reference: None } if *falloff == falls_off)
     }
 }
 
@@ -257,10 +267,13 @@ fn light(light: &Placed<file::Light>, keys: &[&Key]) -> Option<Light> {
 /// The kind of a light, and its place over time.
 fn kind(light: &file::Light, keys: &Keys<'_>) -> Option<(Kind, PointCurve)> {
     match light {
-        file::Light::Directional { toward, .. } => {
+        file::Light::Directional {
+            toward, diameter, ..
+        } => {
             let direction = direction(toward)?;
             let place = keys.vectors(direction, |key| Some(key.toward.as_ref()?.get()?.0));
-            Some((Kind::Directional, place))
+            let diameter = keys.numbers(diameter.get()?.0, |key| &key.diameter);
+            Some((Kind::Directional { diameter }, place))
         }
         file::Light::Point {
             position,

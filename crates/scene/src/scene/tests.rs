@@ -8,7 +8,8 @@ mod steps;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{
-    Angle, Camera, Channels, Grain, Highlight, Material, Outline, OutlineWidth, Roughness,
+    Angle, Camera, Channels, Grain, Highlight, Light, Material, Outline, OutlineWidth, Roughness,
+    Sky,
 };
 
 use super::*;

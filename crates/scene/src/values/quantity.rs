@@ -45,6 +45,8 @@ quantities! {
     RetinaWidth(f64): "a width greater than 0", |x| x > 0.0;
     /// The distance of the retina.
     RetinaDistance(f64): "a distance greater than 0", |x| x > 0.0;
+    /// The angle that the disc of a sun has across.
+    Diameter(f64): "a diameter of at least 0 and less than 180 degrees", |x| (0.0..180.0).contains(&x), default 0.0;
     /// The distance at which a point light has its intensity.
     Reference(f64): "a distance greater than 0", |x| x > 0.0;
     /// The power of the cosine with which a lamp sends light beside the direction that it faces; Lambert's law by default.

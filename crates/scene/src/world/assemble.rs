@@ -1,11 +1,12 @@
 //! The world that a scene file describes.
 
-use marbles_core::{Sphere, World};
+use glam::DVec3;
+use marbles_core::{Sky, Sphere, World};
 
 use super::cloud::Cloud;
 use super::materials::Materials;
 use crate::file::{self, File};
-use crate::text::Placed;
+use crate::text::{Placed, optional, refuse};
 
 /// The world of the file without its lights and clouds, and these; `None` where a fault was reported.
 pub(crate) fn world(file: &File) -> Option<(World, Vec<Cloud>)> {
@@ -19,9 +20,11 @@ pub(crate) fn world(file: &File) -> Option<(World, Vec<Cloud>)> {
         Cloud::new(cloud, material?)
     };
     let clouds: Vec<_> = file.clouds.iter().map(cloud).collect();
+    let sky = optional(&file.sky, sky);
     world.ambient = file.ambient.get()?.0;
     world.background = file.background.get()?.0;
     world.shadows = file.shadows.get()?.0;
+    world.sky = sky?;
     spheres?;
     let clouds = clouds.into_iter().collect::<Option<_>>()?;
     Some((world, clouds))
@@ -40,4 +43,20 @@ fn spheres(file: &File, materials: &mut Materials<'_>, world: &mut World) -> Opt
         all = all.and(added);
     }
     all
+}
+
+/// The sky of the file; `None` where a fault was reported.
+fn sky(sky: &file::Sky) -> Option<Sky> {
+    match sky {
+        file::Sky::Uniform(radiance) => Some(Sky::uniform(radiance.0)),
+        file::Sky::Halves(halves) => {
+            let [above, below] = [&halves.above, &halves.below].map(Placed::get);
+            let up = halves.up.get()?.0;
+            if up == DVec3::ZERO {
+                let message = "expected a direction `(x, y, z)`, found the zero vector";
+                return refuse(halves.up.place.clone(), message);
+            }
+            Sky::in_halves(above?.0, below?.0, up).ok()
+        }
+    }
 }

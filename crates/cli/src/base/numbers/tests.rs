@@ -47,6 +47,18 @@ fn short_numbers_are_plain() {
 }
 
 #[test]
+fn degrees_are_those_that_were_written() {
+    for written in [0.53, 3.0, 0.1, 179.9, 1e-9, 1.0 / 3.0] {
+        let found = degrees(f64::to_radians(written));
+        assert!((found - written).abs() <= f64::EPSILON * written, "{found}");
+    }
+    for written in [0.53, 3.0, 0.1, 179.9, 1e-9] {
+        assert_eq!(degrees(f64::to_radians(written)), written);
+    }
+    assert_eq!(degrees(0.0), 0.0);
+}
+
+#[test]
 fn measured_numbers_have_the_digits_that_count() {
     let times = [
         0.0123456, 1.23456, 123.456, 9.996e-4, 4.5e-7, 0.9999, 1234.5,

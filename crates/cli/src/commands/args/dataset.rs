@@ -17,8 +17,8 @@ Examples:
   marbles dataset dome.ron -o dome --layout lp
 
 Files of the layout `diligent`, in the axes of the camera (x right, y up, z toward the viewer):
-  001.png, 002.png, …   a picture of each light alone, without ambient light and background: 16 bits,
-                        proportional to light, scaled such that no pixel is clipped
+  001.png, 002.png, …   a picture of each light alone, without ambient light, sky and background: 16
+                        bits, proportional to light, scaled such that no pixel is clipped
   filenames.txt         the names of the pictures
   light_directions.txt  unit vectors toward the lights
   light_intensities.txt  red, green and blue of the lights, in the unit of the pictures, whose largest

@@ -129,9 +129,10 @@ pub(crate) struct RenderArguments {
     pub(crate) white: bool,
 
     /// Render each light alone, with its shadows, to NAME.light-KEY.png and so on; KEY is the name of the light, or its
-    /// number from 1 (from 01 if there are ten or more). Ambient light and background go to NAME.ambient.png. The sum of
-    /// these pictures is the full picture. --per-light=layers stores them in one EXR, next to the full picture, as
-    /// layers light-1 (light-1.R, light-1.G, light-1.B) and so on, or with the names of the lights, and `ambient`
+    /// number from 1 (from 01 if there are ten or more). The sky goes to NAME.sky.png, ambient light and background to
+    /// NAME.ambient.png. The sum of these pictures is the full picture. --per-light=layers stores them in one EXR, next
+    /// to the full picture, as layers light-1 (light-1.R, light-1.G, light-1.B) and so on, or with the names of the
+    /// lights, `sky` and `ambient`
     #[arg(
         long,
         value_name = "PLACE",

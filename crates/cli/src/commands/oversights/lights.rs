@@ -122,9 +122,10 @@ pub(super) fn behind(world: &World, views: &[&View]) -> Option<String> {
         of_pieces.into_iter().fold(0.0, f64::max)
     };
     let percent = 100.0 * views.iter().map(most_in).fold(0.0, f64::max);
-    let rest = match world.ambient.max_element() > 0.0 {
-        true => "only ambient light shows",
-        false => "the spheres are black",
+    let rest = match (has_bright_sky(world), world.ambient.max_element() > 0.0) {
+        (true, _) => "little but the light of the sky shows",
+        (false, true) => "only ambient light shows",
+        (false, false) => "the spheres are black",
     };
     let is_averted = |light: &Light| averted(0, light, spheres).is_some();
     if world.lights.iter().all(is_averted) {
@@ -144,6 +145,12 @@ pub(super) fn behind(world: &World, views: &[&View]) -> Option<String> {
         "the lights are behind the spheres, and reach at most {} % of what the camera sees of any: {rest}; {remedy}",
         short((100.0 * percent).ceil() / 100.0)
     ))
+}
+
+/// Returns whether the world has a sky that sends light.
+pub(super) fn has_bright_sky(world: &World) -> bool {
+    let sky = world.sky;
+    sky.is_some_and(|sky| sky.above().max(sky.below()).max_element() > 0.0)
 }
 
 /// The part of a sphere's picture, across it, that lights reach at most: of a moon, its phase.
@@ -168,7 +175,11 @@ fn share_lit(world: &World, sphere: &Sphere, view: &View) -> f64 {
     let overlaps = facing.map(|light| {
         let (to_light, lit) = match light.point() {
             Some(point) => cap(point.position() - center, radius),
-            None => (light.toward().unwrap_or_default(), FRAC_PI_2),
+            // A part of a sun's disc is above the horizon a little longer.
+            None => {
+                let radius = light.sun().map_or(0.0, |sun| 0.5 * sun.diameter());
+                (light.toward().unwrap_or_default(), FRAC_PI_2 + radius)
+            }
         };
         seen + lit - to_eye.angle_between(to_light)
     });

@@ -1,5 +1,6 @@
 //! The blocks of an EXR file: linear light, in half or single precision.
 
+use std::iter;
 use std::ops::Range;
 
 use exr::block::chunk::Chunk;
@@ -9,6 +10,7 @@ use exr::meta::header::Header;
 use exr::prelude::{AttributeValue, IntegerBounds, Text, Vec2};
 use marbles_core::{Channels, Image};
 
+use super::channels::error_channel;
 use super::header::header_of;
 use crate::base::region::Region;
 use crate::formats::center_channels::{
@@ -17,10 +19,6 @@ use crate::formats::center_channels::{
 use crate::formats::encoding::ExrOptions;
 use crate::formats::form::Form;
 use crate::formats::half;
-
-/// The channel with the error of each pixel: the largest difference of any other channel from the exact average, before
-/// rounding to the format. Infinite if it is unknown.
-const ERROR_CHANNEL: &str = "error";
 
 /// The number of rows that are compressed together.
 pub(crate) const ROWS_OF_A_BLOCK: u32 = 16;
@@ -71,19 +69,22 @@ impl Blocks {
     /// The blocks of a picture of this form, with additional layers, which share its alpha.
     pub(crate) fn new(form: &Form, options: ExrOptions, layers: &[String]) -> Self {
         let mut channels = Vec::new();
-        let names = layers.iter().map(|layer| format!("{layer}."));
-        for (layer, prefix) in [String::new()].into_iter().chain(names).enumerate() {
+        let names = layers.iter().map(String::as_str);
+        for (layer, layer_name) in iter::once("").chain(names).enumerate() {
             let light = [(0, "R"), (1, "G"), (2, "B"), (3, "A")].into_iter();
             let light = light.take(if form.alpha && layer == 0 { 4 } else { 3 });
             channels.extend(light.map(|(number, name)| Channel {
-                name: format!("{prefix}{name}"),
+                name: match layer_name {
+                    "" => name.to_owned(),
+                    layer => format!("{layer}.{name}"),
+                },
                 content: Content::Light(number),
                 layer,
                 bytes: if options.float { 4 } else { 2 },
             }));
             if options.error {
                 channels.push(Channel {
-                    name: format!("{prefix}{ERROR_CHANNEL}"),
+                    name: error_channel(layer_name),
                     content: Content::Error,
                     layer,
                     // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.

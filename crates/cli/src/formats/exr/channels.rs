@@ -1,4 +1,4 @@
-//! Selects the channels of a file that form its picture.
+//! Selects the channels of a file that form its picture, and names those with its errors.
 
 use std::collections::BTreeSet;
 
@@ -11,6 +11,22 @@ pub(crate) struct Chosen {
     pub(crate) prefix: String,
     /// The names after the prefix.
     pub(crate) colors: &'static [&'static str],
+}
+
+/// The layer with the errors of the picture of a light, in the layer of this name, or of the whole picture, whose name is
+/// empty. They are not in the layer of the light: some readers take a layer of four channels for something else than a
+/// color.
+pub(crate) fn error_layer(layer: &str) -> String {
+    match layer {
+        "" => "error".to_owned(),
+        _ => format!("{layer}_error"),
+    }
+}
+
+/// The channel with the error of each pixel of this layer's picture: the largest difference of any of its channels from the
+/// exact average, before rounding to the format. Infinite if it is unknown.
+pub(super) fn error_channel(layer: &str) -> String {
+    format!("{}.V", error_layer(layer))
 }
 
 /// The first part with channels `R`, `G`, `B` or `Y`; otherwise the first part with a layer that has such channels, in

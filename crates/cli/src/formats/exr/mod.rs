@@ -3,7 +3,7 @@
 mod attributes;
 mod block_reader;
 pub(crate) mod blocks;
-mod channels;
+pub(crate) mod channels;
 mod data_window;
 pub(super) mod header;
 pub(crate) mod read;

@@ -7,7 +7,7 @@ use exr::meta::attribute::SampleType;
 use exr::prelude::f16;
 
 use super::block_reader::meta_of;
-use super::channels::choose;
+use super::channels::{choose, error_channel};
 use super::data_window::{Channel, DataWindow};
 use crate::base::failure::reason;
 use crate::base::size::Size;
@@ -38,9 +38,12 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
     let colors = chosen.colors.iter().filter_map(|&name| channel(name));
     let colors = colors.collect();
     let alpha = channel("A");
-    let has_error = channel("error").is_some();
+    let layer = chosen.prefix.strip_suffix('.');
+    // marbles once called it `error` within its layer.
+    let has_error = Channel::of(part, &error_channel(layer.unwrap_or_default())).is_some()
+        || channel("error").is_some();
     let part_name = part.own_attributes.layer_name.as_ref();
-    let layer = match chosen.prefix.strip_suffix('.') {
+    let layer = match layer {
         Some(prefix) => Some(prefix.to_owned()),
         None => part_name
             .filter(|_| chosen.part > 0)

@@ -94,13 +94,9 @@ impl Arrays {
     pub(super) fn for_archive(form: &Form, options: NpyOptions) -> Self {
         let mut arrays = Self::of_light(LIGHT, "error", form, options);
         for (channel, source) in form.centers.iter().flat_map(CenterChannels::list) {
-            let name = match channel.split_once('.') {
-                None => channel.to_owned(),
-                Some((name, "X" | "Y" | "Z" | "R" | "G" | "B")) => name.to_owned(),
-                Some((name, other)) => format!("{name}_{other}"),
-            };
+            let name = channel.split_once('.').map_or(channel, |(layer, _)| layer);
             if source.is_index() {
-                arrays.add(&name, None, Contents::Indices(source));
+                arrays.add(name, None, Contents::Indices(source));
                 continue;
             }
             match arrays.all.last_mut() {
@@ -108,11 +104,11 @@ impl Arrays {
                     name: last,
                     array,
                     contents: Contents::Centers(sources),
-                }) if *last == name => {
+                }) if last == name => {
                     sources.push(source);
                     array.channels = Some(sources.len() as u32);
                 }
-                _ => arrays.add(&name, None, Contents::Centers(vec![source])),
+                _ => arrays.add(name, None, Contents::Centers(vec![source])),
             }
         }
         arrays

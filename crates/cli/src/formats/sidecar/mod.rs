@@ -20,6 +20,7 @@ use marbles_scene::Scene;
 use serde::Serialize;
 
 pub(crate) use self::stored::contents;
+use crate::base::numbers::degrees;
 use crate::base::region::Region;
 
 /// The contents, in the order of the file.
@@ -35,6 +36,9 @@ pub(crate) struct Sidecar<'a> {
     camera: Camera,
     lights: Vec<Light<'a>>,
     ambient: [f64; 3],
+    /// `None` if there is no sky.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sky: Option<Sky>,
     background: [f64; 3],
     /// The seeds of rough materials, by the names of the materials.
     seeds: BTreeMap<&'a str, u64>,
@@ -110,6 +114,14 @@ struct Light<'a> {
     intensity: [f64; 3],
 }
 
+/// The light of the sky: its radiance above and below a plane, and the unit vector across it in the right-handed world.
+#[derive(Debug, Serialize)]
+struct Sky {
+    above: [f64; 3],
+    below: [f64; 3],
+    up: [f64; 3],
+}
+
 /// The position or direction of a light, in the right-handed world and in the axes of the camera.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
@@ -117,6 +129,9 @@ enum LightPlace {
     Directional {
         toward: [f64; 3],
         toward_camera: [f64; 3],
+        /// The angle that its disc has across, if it has one.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        diameter_degrees: Option<f64>,
     },
     Point {
         position: [f64; 3],
@@ -198,6 +213,11 @@ impl<'a> Sidecar<'a> {
             camera: Camera::of(view, &place),
             lights: lights.collect(),
             ambient: numbers(world.ambient),
+            sky: world.sky.map(|sky| Sky {
+                above: numbers(sky.above()),
+                below: numbers(sky.below()),
+                up: numbers(right_handed(sky.up())),
+            }),
             background: numbers(world.background),
             seeds: seeds(world, &scene.description().materials),
             rendered: None,
@@ -208,9 +228,12 @@ impl<'a> Sidecar<'a> {
     /// The same for a picture of a part of the light.
     pub(crate) fn under(mut self, part: LightPart) -> Self {
         self.lights = match part {
-            LightPart::Ambient => Vec::new(),
+            LightPart::Ambient | LightPart::Sky => Vec::new(),
             LightPart::Light(index) => self.lights.drain(..).skip(index).take(1).collect(),
         };
+        if part != LightPart::Sky {
+            self.sky = None;
+        }
         if part != LightPart::Ambient {
             (self.ambient, self.background) = ([0.0; 3], [0.0; 3]);
         }
@@ -308,6 +331,9 @@ impl<'a> Light<'a> {
                 WorldLight::Directional(light) => LightPlace::Directional {
                     toward: numbers(right_handed(light.toward())),
                     toward_camera: numbers(place.direction(light.toward())),
+                    diameter_degrees: Some(light.diameter())
+                        .filter(|&diameter| diameter > 0.0)
+                        .map(degrees),
                 },
                 WorldLight::Point(light) => LightPlace::Point {
                     position: numbers(right_handed(light.position())),

@@ -85,6 +85,43 @@ fn a_view_has_its_camera_and_lights_in_right_handed_axes() {
 }
 
 #[test]
+fn soft_light_is_told_where_there_is_some() {
+    let text = SCENE
+        .replace("toward: (0, 0, -3),", "toward: (0, 0, -3), diameter: 0.53,")
+        .replace(
+            "ambient: 0.25",
+            "ambient: 0.25, sky: (above: 0.5, below: (0, 0.25, 1), up: (0, 0, 2))",
+        );
+    let scene = Scene::parse(&text, Path::new("a.ron")).unwrap();
+    let view = scene.view(7).unwrap();
+    let of = |part: Option<LightPart>| {
+        let sidecar = Sidecar::of(&scene, Path::new("a.ron"), 7, &view);
+        written(&match part {
+            Some(part) => sidecar.under(part),
+            None => sidecar,
+        })
+        .1
+    };
+    let sky = json!({
+        "above": [0.5, 0.5, 0.5],
+        "below": [0.0, 0.25, 1.0],
+        "up": [0.0, 0.0, -1.0],
+    });
+    let whole = of(None);
+    assert_eq!(whole["sky"], sky);
+    assert_eq!(whole["lights"][0]["diameter_degrees"], json!(0.53));
+    let of_sky = of(Some(LightPart::Sky));
+    assert_eq!(of_sky["sky"], sky);
+    assert_eq!(
+        [&of_sky["lights"], &of_sky["ambient"]],
+        [&json!([]), &json!([0.0, 0.0, 0.0])]
+    );
+    for part in [LightPart::Light(0), LightPart::Ambient] {
+        assert_eq!(of(Some(part)).get("sky"), None, "{part:?}");
+    }
+}
+
+#[test]
 fn rectangular_pixels_have_two_focal_lengths() {
     let text = SCENE.replace(
         "Retina(width: 32, distance: 25, shift: (1, -2))",

@@ -107,6 +107,16 @@ fn whatever_changes_a_picture_changes_its_digest() {
         ("zoom: 1.5", "zoom: 1.25"),
         ("background: 0.25", "background: 0.5"),
         ("ambient: 0.125", "ambient: 0.5"),
+        ("ambient: 0.125", "ambient: 0.125, sky: 0"),
+        ("ambient: 0.125", "ambient: 0.125, sky: 0.5"),
+        (
+            "ambient: 0.125",
+            "ambient: 0.125, sky: (above: 0.5, below: 0.25)",
+        ),
+        (
+            "ambient: 0.125",
+            "ambient: 0.125, sky: (above: 0.5, below: 0.25, up: (0, 1, 1))",
+        ),
         ("shadows: true", "shadows: false"),
         ("toward: (-1", "toward: (-2"),
         (
@@ -126,6 +136,8 @@ fn whatever_changes_a_picture_changes_its_digest() {
             "Point(reference: 2, position: (-1, 1, -1), direction: (0, 1, 1), mu: 2",
         ),
         ("intensity: 0.5", "intensity: 0.25"),
+        ("intensity: 0.5", "intensity: 0.5, diameter: 0.5"),
+        ("intensity: 0.5", "intensity: 0.5, diameter: 2"),
         ("intensity: 0.5", "intensity: 0.5, name: \"key\""),
         ("intensity: 0.5", "intensity: 0.5, name: \"rim\""),
         ("intensity: 0.5", "intensity: 0.5, attached: Camera"),

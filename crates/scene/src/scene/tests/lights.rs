@@ -92,6 +92,82 @@ fn a_light_that_passes_the_zero_vector_has_no_direction_there() {
     assert!(scene.view(3).is_ok());
 }
 
+/// The diameters of a frame's lights, in degrees.
+fn diameters(scene: &Scene, frame: i32) -> Vec<f64> {
+    let lights = scene.lights(&scene.view(frame).unwrap());
+    let directional = lights.iter().map(|light| match light {
+        Light::Directional(light) => light.diameter().to_degrees(),
+        Light::Point(_) => f64::NAN,
+    });
+    directional.collect()
+}
+
+#[test]
+fn a_light_is_a_sun_where_it_has_a_diameter() {
+    let scene = scene(
+        "lights: [Directional(toward: (0, 1, 0)), Directional(toward: (0, 1, 0), diameter: 0.5),
+            Directional(toward: (0, 1, 0), diameter: 179.99999999999997)]",
+    );
+    let found = diameters(&scene, 1);
+    assert_eq!(found[..2], [0.0, 0.5]);
+    assert!((found[2] - 180.0).abs() < 1e-12);
+    let suns = scene
+        .world()
+        .lights
+        .iter()
+        .map(|light| light.sun().is_some());
+    assert_eq!(suns.collect::<Vec<_>>(), [false, true, true]);
+}
+
+#[test]
+fn keys_change_the_diameter_and_attached_lights_keep_theirs() {
+    let scene = scene(
+        r#"lights: [Directional(name: "a", toward: (0, 1, 0)), Directional(toward: (1, 0, 0), diameter: 3, attached: Camera)],
+        animation: Keyframes(keys: [
+            (frame: 1, light: "a", diameter: 0, ease: Linear),
+            (frame: 5, light: "a", diameter: 2),
+            (frame: 5, pan: 20),
+        ])"#,
+    );
+    for (frame, expected) in [(1, 0.0), (2, 0.5), (3, 1.0), (5, 2.0)] {
+        let found = diameters(&scene, frame);
+        for (found, expected) in found.iter().zip([expected, 3.0]) {
+            assert!((found - expected).abs() < 1e-15, "{frame}: {found}");
+        }
+    }
+}
+
+#[test]
+fn the_sky_is_a_color_or_two_halves() {
+    let sky = |text: &str| scene(&format!("sky: {text}")).world().sky;
+    let color = DVec3::new(0.25, 0.5, 1.0);
+    for text in [
+        "(0.25, 0.5, 1)",
+        "[0.25, 0.5, 1]",
+        "( /* a: */ 0.25, 0.5, 1,)",
+    ] {
+        assert_eq!(sky(text), Some(Sky::uniform(color)), "{text}");
+    }
+    assert_eq!(sky("0.5"), Some(Sky::uniform(DVec3::splat(0.5))));
+    assert_eq!(sky("\"#fff\""), Some(Sky::uniform(DVec3::ONE)));
+    let halves = |up| Sky::in_halves(color, DVec3::ZERO, up).ok();
+    for text in [
+        "(above: (0.25, 0.5, 1), below: 0)",
+        "Sky(below: \"black\", above: (0.25, 0.5, 1))",
+        "( // of day\n above /* . */ : (0.25, 0.5, 1), below: 0)",
+    ] {
+        assert_eq!(sky(text), halves(DVec3::Y), "{text}");
+    }
+    let tilted = sky("(above: (0.25, 0.5, 1), below: 0, up: (0, 3, -4))").unwrap();
+    assert!((tilted.up() - DVec3::new(0.0, 0.6, -0.8)).length() < 1e-15);
+    assert_eq!(scene("").world().sky, None);
+    assert_eq!(Channels::of(scene("sky: 1").world(), false), Channels::Grey);
+    assert_eq!(
+        Channels::of(scene("sky: \"tan\"").world(), false),
+        Channels::Rgb
+    );
+}
+
 /// The directions in which the lamps of a frame face, and their powers.
 fn emissions(scene: &Scene, frame: i32) -> Vec<(DVec3, f64)> {
     let lights = scene.lights(&scene.view(frame).unwrap());

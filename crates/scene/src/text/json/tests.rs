@@ -29,6 +29,10 @@ fn structures_variants_lists_and_tuples_are_told_apart() {
         ),
         (r#"{"camera": {"Free": {}}}"#, "(camera:Free())"),
         (
+            r#"{"sky": {"above": [0.5, 0.6, 1], "below": "tan", "up": [0, 0, 1]}}"#,
+            r#"(sky:(above:(0.5,0.6,1),below:"tan",up:(0,0,1)))"#,
+        ),
+        (
             r#"{"lights": [{"Directional": {"toward": [1, 2, 3], "attached": "Camera"}}, {"Point": {}}]}"#,
             "(lights:[Directional(toward:(1,2,3),attached:Camera),Point()])",
         ),

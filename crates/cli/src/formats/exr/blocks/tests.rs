@@ -114,7 +114,7 @@ fn errors_are_floats_that_stay_bounds() {
         let file = read(&file(&image, options, &facts()).0);
         let channels = file.layer_data.channel_data.list;
         let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
-        assert_eq!(names, ["A", "B", "G", "R", "error"]);
+        assert_eq!(names, ["A", "B", "G", "R", "error.V"]);
         let FlatSamples::F32(stored) = &channels[4].sample_data else {
             panic!("expected floats");
         };

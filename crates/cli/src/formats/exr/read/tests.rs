@@ -123,6 +123,28 @@ fn layers_are_found() {
     assert_eq!(picture.rgba[0][0], [2.0, 2.0, 2.0, 1.0]);
 }
 
+/// marbles once stored errors as `error`, and those of a light as `KEY.error`.
+#[test]
+fn errors_are_found_under_their_old_names_too() {
+    for (layer, error) in [
+        ("", "error.V"),
+        ("", "error"),
+        ("key.", "key_error.V"),
+        ("key.", "key.error"),
+    ] {
+        let [red, green, blue] = ["R", "G", "B"].map(|name| format!("{layer}{name}"));
+        let mut description = "EXR, float, RGB and error".to_owned();
+        if let Some(layer) = layer.strip_suffix('.') {
+            description.push_str(&format!(" of layer {layer}"));
+        }
+        let channels = [(&*red, 1.0), (&green, 2.0), (&blue, 3.0), (error, 4.0)];
+        let channels = channels.map(|(name, value)| (name, one(value)));
+        let (found, picture) = line(1, &channels);
+        assert_eq!(found, description);
+        assert_eq!(picture.rgba[0][0], [1.0, 2.0, 3.0, 1.0]);
+    }
+}
+
 #[test]
 fn outside_the_data_window_there_is_nothing() {
     let numbers = FlatSamples::F32(vec![1.0, 2.0, 3.0, 4.0]);
