@@ -378,9 +378,9 @@ fn integrate_each(
     let all = (1_u128 << tile.count()) - 1;
     if u128::from(known) & all == all {
         scratch.leave_out(tile);
-        for index in 0..integrators.len() {
+        for (index, exact) in integrators.iter().enumerate() {
             let mut pixels = of_crowds.all(index);
-            if let (Some(pixels), Some(soft)) = (&mut pixels, &integrators[index].soft) {
+            if let (Some(pixels), Some(soft)) = (&mut pixels, &exact.soft) {
                 work += soft.add(tile, of_soft, pixels);
             }
             write(index, pixels.as_deref());

@@ -1,6 +1,6 @@
 //! Compares integrals over visible directions with integrals along meridians.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
@@ -207,7 +207,7 @@ fn the_visible_part_of_a_disc_agrees_with_meridians() {
     ] {
         let angle = diameter / 360.0 * PI;
         let mut largest: f64 = 0.0;
-        for _ in 0..200 {
+        for _ in 0..60 {
             let disc = Cap::within(random.direction(), angle);
             let normal = (disc.axis + random.direction()).normalize();
             let mut caps = vec![Cap::below(normal)];
@@ -234,7 +234,6 @@ fn the_visible_part_of_a_disc_agrees_with_meridians() {
             let truth = share_of(truth, normal, &disc);
             largest = largest.max((share - truth).abs());
         }
-        println!("{diameter}: {largest:e}");
         assert!(largest < most, "{diameter}: {largest:e}");
     }
 }

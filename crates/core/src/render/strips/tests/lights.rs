@@ -112,7 +112,7 @@ fn a_picture_under_one_light_is_that_of_the_world_with_this_light() {
                     only.lights.push(world.lights[index]);
                     (only.ambient, only.background) = (Color::ZERO, Color::ZERO);
                 }
-                LightPart::Ambient => {}
+                LightPart::Ambient | LightPart::Sky => {}
             }
             let image = alone(&only, &view, &settings);
             apart += image.work();
