@@ -131,8 +131,13 @@ fn what_is_ended_while_it_writes_leaves_nothing() {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
+        // While it is empty it may not be known yet: a process that aborts in that moment leaves it.
+        let is_begun = || {
+            let file = folder.path("o.exr.tmp").metadata();
+            file.is_ok_and(|file| file.len() > 0)
+        };
         wait_until("a temporary file", || {
-            folder.path("o.exr.tmp").exists() || folder.path("o.exr").exists()
+            is_begun() || folder.path("o.exr").exists()
         });
         signal(name, &child);
         let code = child.wait().unwrap().code();
