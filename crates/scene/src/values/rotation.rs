@@ -7,7 +7,7 @@ use super::point::Point;
 use super::quantity::Coordinate;
 use crate::text::{Placed, Read, Slice, read_simple, refuse};
 
-/// The rotation next to a matrix that the file has as nine numbers row by row, or as three rows.
+/// The rotation next to a matrix that the file has as nine numbers row by row, or as three rows, in a list or a tuple.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rotation(pub(crate) DMat3);
 
@@ -22,12 +22,21 @@ impl<'t> Read<'t> for Rotation {
             .unwrap_or_default()
             .trim_ascii_start()
             .starts_with(['(', '[']);
+        let is_tuple = slice.text.starts_with('(');
         let entries: Vec<f64> = if has_rows {
-            let rows: Vec<Placed<Point>> = read_simple(slice, expected)?;
+            let rows: Vec<Placed<Point>> = if is_tuple {
+                read_simple::<[_; 3]>(slice, expected)?.into()
+            } else {
+                read_simple(slice, expected)?
+            };
             let row = |row: &Placed<Point>| Some(row.get()?.0.to_array());
             rows.iter().map(row).collect::<Option<Vec<_>>>()?.concat()
         } else {
-            let entries: Vec<Placed<Coordinate>> = read_simple(slice, expected)?;
+            let entries: Vec<Placed<Coordinate>> = if is_tuple {
+                read_simple::<[_; 9]>(slice, expected)?.into()
+            } else {
+                read_simple(slice, expected)?
+            };
             let entry = |entry: &Placed<Coordinate>| Some(entry.get()?.0);
             entries.iter().map(entry).collect::<Option<_>>()?
         };

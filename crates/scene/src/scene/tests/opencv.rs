@@ -65,6 +65,22 @@ fn a_pose_leads_from_the_right_handed_world_to_the_camera() {
 }
 
 #[test]
+fn a_rotation_may_be_a_list_or_a_tuple_of_numbers_or_rows() {
+    for rotation in [
+        "(1, 0, 0, 0, -1, 0, 0, 0, -1)",
+        "( (1, 0, 0), [0, -1, 0], (0, 0, -1) )",
+        "[(1, 0, 0), [0, -1, 0], (0, 0, -1)]",
+    ] {
+        let camera = AHEAD.replace("[1, 0, 0, 0, -1, 0, 0, 0, -1]", rotation);
+        assert_eq!(
+            view("Fov(90)", &camera).camera,
+            view("Fov(90)", AHEAD).camera,
+            "{rotation}"
+        );
+    }
+}
+
+#[test]
 fn a_rounded_rotation_is_made_orthonormal() {
     // 30 degrees about the axis of view.
     let rotation = "[0.8660254, 0.5, 0, 0.5, -0.8660254, 0, 0, 0, -1]";
