@@ -35,7 +35,8 @@ pub(crate) struct Soft<'scene> {
 /// Memory for a thread.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    cells: Cells,
+    /// None before the first tile with soft light: most worlds have none.
+    cells: Option<Box<Cells>>,
     hidden: Hidden,
 }
 
@@ -201,10 +202,12 @@ impl<'scene> Soft<'scene> {
         pixels: &mut [Pixel],
     ) -> Work {
         let candidates = self.candidates(tile);
-        let before = scratch.cells.points;
+        let Scratch { cells, hidden } = scratch;
+        let cells = cells.get_or_insert_default();
+        let before = cells.points;
         let share = Self::SHARE * tolerance / self.lights.len() as f64;
         for light in &self.lights {
-            scratch.cells.begin();
+            cells.begin();
             let most = match light {
                 SoftLight::Sun(_) => MOST_POINTS_OF_SUN,
                 SoftLight::Sky(_) => MOST_POINTS_OF_SKY,
@@ -214,11 +217,11 @@ impl<'scene> Soft<'scene> {
                     soft: self,
                     light,
                     key: self.key(col, row),
-                    hidden: &mut scratch.hidden,
+                    hidden: hidden,
                     projection: self.view.lens.projection(),
                 };
                 let average = match &candidates {
-                    Some(candidates) => scratch.cells.average(
+                    Some(candidates) => cells.average(
                         &mut of_pixel,
                         (self.cell(col, row), self.view.lens.projection()),
                         candidates,
@@ -243,7 +246,7 @@ impl<'scene> Soft<'scene> {
             }
         }
         Work {
-            samples: scratch.cells.points - before,
+            samples: cells.points - before,
             ..Work::default()
         }
     }
