@@ -217,7 +217,7 @@ impl<'scene> Soft<'scene> {
                     soft: self,
                     light,
                     key: self.key(col, row),
-                    hidden: hidden,
+                    hidden,
                     projection: self.view.lens.projection(),
                 };
                 let average = match &candidates {
