@@ -7,9 +7,10 @@
 //! | file | contents |
 //! |---|---|
 //! | `cap.rs`, `arcs.rs`, `visible.rs` | caps, the arcs of their circles, the integral over what is visible |
-//! | `sun.rs`, `sky.rs`, `light.rs` | the light at a point |
-//! | `line.rs` | what is seen along a line of the picture |
+//! | `point.rs`, `sun.rs`, `sky.rs`, `light.rs` | points, and the light at a point |
+//! | `line.rs`, `heights.rs` | what is seen along a line of the picture, and between which heights that changes smoothly |
 //! | `cell.rs`, `piece.rs` | the average over a pixel or a part of one |
+//! | `doubt.rs` | changes of light that points of a cell may miss |
 //! | `picture.rs` | the averages over pixels, by samples or to a tolerance |
 
 mod arcs;
