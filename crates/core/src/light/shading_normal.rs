@@ -30,6 +30,15 @@ impl ShadingNormal {
         }
     }
 
+    /// The shading normal at a normal, in the world's frame.
+    pub(crate) fn of(&self, normal: DVec3) -> DVec3 {
+        match self {
+            Self::Smooth => normal,
+            Self::Bumpy(bumps) => bumps.perturb(normal),
+            Self::Factors(factors) => (normal * factors).normalize(),
+        }
+    }
+
     pub(crate) fn is_smooth(&self) -> bool {
         matches!(self, Self::Smooth)
     }

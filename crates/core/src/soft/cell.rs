@@ -14,6 +14,7 @@ use glam::DVec2;
 use super::heights::heights;
 use super::line::{Candidate, Span, spans};
 use super::piece::{BANDS, Piece, mean_of_fit};
+use super::strips::{Curve, Strips};
 use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::numeric::jacobi::JacobiRule;
@@ -38,6 +39,42 @@ pub(crate) trait Light {
 
     /// True if a sphere may be seen in a cell.
     fn may_see(&self, candidate: &Candidate, cell: &Cell) -> bool;
+
+    /// False if the light of a candidate at a place differs from pixel to pixel.
+    fn is_shared(&self, candidate: &Candidate) -> bool;
+
+    /// What the light on a candidate is like in a cell. Later calls speak of this cell, and give the same `number`.
+    fn contents(&mut self, _candidate: &Candidate, _cell: &Cell, _number: usize) -> Contents {
+        Contents::Unknown
+    }
+
+    /// Adds the places on a curve, from 0 to 1, at which light is not smooth.
+    fn add_breaks(
+        &mut self,
+        _candidate: &Candidate,
+        _curve: &Curve,
+        _number: usize,
+        _breaks: &mut Vec<f64>,
+    ) {
+    }
+
+    /// The integral along a curve, and an estimate of its error.
+    fn along(&mut self, _candidate: &Candidate, _curve: &Curve, _number: usize) -> (Color, f64) {
+        (Color::ZERO, self.brightest())
+    }
+}
+
+/// What light is like in a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Contents {
+    /// It is known at points alone.
+    Unknown,
+    /// There is none.
+    Dark,
+    /// It is smooth but for changes of a part of the brightest light.
+    Smooth { doubt: f64 },
+    /// It changes over widths that are small beside the cell: its breaks are to be looked for.
+    Edges,
 }
 
 /// The integral over a cell, and an estimate of its error.
@@ -82,6 +119,7 @@ pub(crate) struct Cells {
     few: [(f64, f64); FEW_LINES],
     ends: Vec<f64>,
     spans: Vec<Span>,
+    strips: Strips,
     /// The light at corners and middles, which cells have in common: at each place the last of those that belong there.
     known: Vec<Option<Known>>,
     /// Points of light that were computed, and cells in which some sphere may be seen.
@@ -95,6 +133,7 @@ impl Default for Cells {
             few: smooth_rule(),
             ends: Vec::new(),
             spans: Vec::new(),
+            strips: Strips::default(),
             known: vec![None; KNOWN],
             points: 0,
         }
@@ -103,7 +142,7 @@ impl Default for Cells {
 
 /// Gauss's rule for functions from 0 to 1 that may go with the square root of the distance from either end: with
 /// x = s² (3 − 2 s) they are smooth in s.
-fn smooth_rule<const NODES: usize>() -> [(f64, f64); NODES] {
+pub(crate) fn smooth_rule<const NODES: usize>() -> [(f64, f64); NODES] {
     let JacobiRule { nodes, weights } = JacobiRule::<NODES>::new(0.0);
     std::array::from_fn(|index| {
         let s = nodes[index];
@@ -122,7 +161,7 @@ struct Part {
 }
 
 impl Cell {
-    fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         (self.u[1] - self.u[0]) * (self.v[1] - self.v[0])
     }
 
@@ -154,11 +193,12 @@ impl Cells {
     ) -> Integral {
         let last = self.points + most;
         let area = cell.area();
-        let mut parts = vec![self.part(light, cell, projection, candidates)];
+        let limit = tolerance * area;
+        let mut parts = vec![self.part(light, (cell, projection), candidates, limit)];
         let mut divided = Vec::new();
         for _ in 0..MOST_DIVISIONS {
             let errors = || parts.iter().map(|part| part.integral.error);
-            if errors().sum::<f64>() <= tolerance * area || self.points >= last {
+            if errors().sum::<f64>() <= limit || self.points >= last {
                 break;
             }
             let least = errors().fold(0.0, f64::max) * WORST;
@@ -168,7 +208,8 @@ impl Cells {
                     continue;
                 }
                 for quarter in part.cell.quarters() {
-                    divided.push(self.part(light, quarter, projection, &part.candidates));
+                    let limit = 0.25 * least;
+                    divided.push(self.part(light, (quarter, projection), &part.candidates, limit));
                 }
             }
             std::mem::swap(&mut parts, &mut divided);
@@ -181,12 +222,13 @@ impl Cells {
         average
     }
 
+    /// The integral over a part of a pixel; rules that cost more are tried while its error is above a limit.
     fn part(
         &mut self,
         light: &mut dyn Light,
-        cell: Cell,
-        projection: Projection,
+        (cell, projection): (Cell, Projection),
         candidates: &[Candidate],
+        limit: f64,
     ) -> Part {
         let candidates = candidates
             .iter()
@@ -195,14 +237,45 @@ impl Cells {
         self.points += u64::from(!candidates.is_empty());
         let integral = match &candidates[..] {
             [] => Integral::default(),
-            [only] if only.fills(cell.u, cell.v, projection) => self.filled(light, only, &cell),
-            several => self.mixed(light, several, &cell, projection),
+            [only] if only.fills(cell.u, cell.v, projection) => {
+                match light.contents(only, &cell, 0) {
+                    Contents::Dark => Integral::default(),
+                    Contents::Edges => {
+                        self.in_strips(light, (&cell, projection), &candidates, limit)
+                    }
+                    contents => {
+                        let smooth = self.filled(light, only, &cell, contents);
+                        if smooth.error <= limit || matches!(contents, Contents::Unknown) {
+                            smooth
+                        } else {
+                            self.in_strips(light, (&cell, projection), &candidates, limit)
+                        }
+                    }
+                }
+            }
+            several => match light.contents(&several[0], &cell, 0) {
+                Contents::Unknown => self.mixed(light, several, &cell, projection),
+                _ => self.in_strips(light, (&cell, projection), several, limit),
+            },
         };
         Part {
             cell,
             candidates,
             integral,
         }
+    }
+
+    fn in_strips(
+        &mut self,
+        light: &mut dyn Light,
+        of: (&Cell, Projection),
+        candidates: &[Candidate],
+        limit: f64,
+    ) -> Integral {
+        let before = self.strips.points;
+        let integral = self.strips.integral(light, of, candidates, limit);
+        self.points += self.strips.points - before;
+        integral
     }
 
     /// The integral over a cell inside one sphere.
@@ -212,7 +285,13 @@ impl Cells {
     ///
     /// The claim is as much as that allows, and parts of other differences, which bends along several lines leave. Their
     /// factors are from searches: with none of them 1 pixel in 1000 was off by more than it claimed.
-    fn filled(&mut self, light: &mut dyn Light, sphere: &Candidate, cell: &Cell) -> Integral {
+    fn filled(
+        &mut self,
+        light: &mut dyn Light,
+        sphere: &Candidate,
+        cell: &Cell,
+        contents: Contents,
+    ) -> Integral {
         let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
         let corners = corners.map(|(right, top)| DVec2::new(cell.u[right], cell.v[top]));
         let mut colors = [Color::ZERO; 4];
@@ -237,13 +316,21 @@ impl Cells {
         if is_missed || middle.is_none() {
             error = light.brightest();
         }
+        let mut doubt = light.doubt(sphere, cell);
+        if let Contents::Smooth { doubt: of_light } = contents {
+            doubt = doubt.max(of_light);
+        }
         Integral {
             value: (mean + center * 2.0) * (area / 3.0),
-            error: error.max(light.doubt(sphere, cell)) * area,
+            error: error.max(doubt) * area,
         }
     }
 
     fn known_at(&mut self, light: &mut dyn Light, sphere: &Candidate, at: DVec2) -> Option<Color> {
+        if !light.is_shared(sphere) {
+            self.points += 1;
+            return light.at(sphere, at);
+        }
         let hash = (sphere.sphere as u64)
             .wrapping_add(at.x.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15))
             .wrapping_add(at.y.to_bits().rotate_left(32))
@@ -281,7 +368,13 @@ impl Cells {
             spans: found,
             ..
         } = self;
-        let heights = heights(candidates, (cell.u, cell.v), projection, (ends, found));
+        let heights = heights(
+            candidates,
+            (cell.u, cell.v),
+            projection,
+            (ends, found),
+            |_, _, _| {},
+        );
         let mut of = |place: usize, act: &mut dyn FnMut(&mut Piece)| {
             let known = pieces.iter().position(|piece| piece.place == place);
             let index = known.unwrap_or_else(|| {
@@ -291,7 +384,7 @@ impl Cells {
             act(&mut pieces[index]);
         };
         for ends_of_strip in heights.windows(2) {
-            let (low, height) = (ends_of_strip[0], ends_of_strip[1] - ends_of_strip[0]);
+            let (low, height) = (ends_of_strip[0].v, ends_of_strip[1].v - ends_of_strip[0].v);
             for (node, weight) in &*rule {
                 let v = low + height * *node;
                 spans(candidates, cell.u, v, projection, ends, found);

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::light::SoftLight;
+use super::edges::Height;
 use super::line::Candidate;
 use super::point::Occluders;
 use super::sun::Sun;
@@ -92,27 +92,8 @@ impl Extent {
     }
 }
 
-/// The part of the brightest light that may change between the points of a cell without being noticed: 0 where light is
-/// smooth enough for them.
-pub(crate) fn doubt(
-    light: &SoftLight,
-    extent: &Extent,
-    (world, sphere): (&World, usize),
-    shading: &ShadingNormal,
-    occluders: Option<&Occluders<'_>>,
-) -> f64 {
-    let of_bumps = of_bumps(extent, shading);
-    let of_light = match light {
-        SoftLight::Sun(sun) => of_highlight(sun, extent, (world, sphere), shading)
-            .max(of_shadows(sun, extent, sphere, occluders))
-            .max(of_terminator(sun, extent, shading)),
-        SoftLight::Sky(_) => of_small_spheres(extent, sphere, occluders),
-    };
-    of_bumps.max(of_light)
-}
-
 /// Bumps that are finer than a cell.
-fn of_bumps(extent: &Extent, shading: &ShadingNormal) -> f64 {
+pub(crate) fn of_bumps(extent: &Extent, shading: &ShadingNormal) -> f64 {
     /// The part of a cell of the noise that points may be apart.
     const FINE: f64 = 0.25;
     if shading.cells() * extent.turn > FINE {
@@ -123,7 +104,7 @@ fn of_bumps(extent: &Extent, shading: &ShadingNormal) -> f64 {
 }
 
 /// A highlight that is narrower than a cell.
-fn of_highlight(
+pub(crate) fn of_highlight(
     sun: &Sun,
     extent: &Extent,
     (world, sphere): (&World, usize),
@@ -147,7 +128,7 @@ fn of_highlight(
 }
 
 /// The place where a surface turns away from a sun: light may begin between points.
-fn of_terminator(sun: &Sun, extent: &Extent, shading: &ShadingNormal) -> f64 {
+pub(crate) fn of_terminator(sun: &Sun, extent: &Extent, shading: &ShadingNormal) -> f64 {
     /// The mean over a cell of light that begins in it, in parts of what it grows to. Not tuned.
     const OF_BEND: f64 = 0.125;
     let turn = extent.turn * shading.slope_bound();
@@ -160,58 +141,28 @@ fn of_terminator(sun: &Sun, extent: &Extent, shading: &ShadingNormal) -> f64 {
     OF_BEND * turn.min(1.0) * bend
 }
 
-/// Shadows whose penumbrae are narrower than a cell, or begin or end in it.
+/// A penumbra that begins or ends in a cell of some size around a point.
 ///
 /// Where a sphere begins to hide the disc, and where it hides all of it, is a cone around the sphere's shadow. The distance
 /// from either changes by no more than the place does. From there on the share of the disc grows with the power 3/2 of that
 /// distance.
-fn of_shadows(sun: &Sun, extent: &Extent, sphere: usize, occluders: Option<&Occluders<'_>>) -> f64 {
-    let Some(occluders) = occluders else {
-        return 0.0;
-    };
+pub(crate) fn of_penumbra(height: &Height, radius: f64, around: f64) -> f64 {
     /// The mean over a cell of a share that begins in it, in parts of the power of its size. Not tuned.
     const OF_EDGE: f64 = 0.25;
-    let disc = &sun.disc;
-    if extent.normal.dot(disc.axis) <= -(disc.sine + extent.turn) {
+    if height.outer.abs() > around && height.inner.abs() > around {
         return 0.0;
     }
-    let toward = Beyond::Cone {
-        apex: extent.middle,
-        around: extent.around,
-        axis: disc.axis,
-        sine: disc.sine,
-        cosine: disc.cosine,
-    };
-    let (mut doubt, mut is_dark) = (0.0_f64, false);
-    let own = &occluders.spheres[sphere];
-    occluders
-        .hierarchy
-        .for_each_beyond(occluders.spheres, &toward, |index| {
-            let other = &occluders.spheres[index];
-            if is_dark || index == sphere || other == own {
-                return;
-            }
-            let to_center = other.center() - extent.middle;
-            let along = to_center.dot(disc.axis);
-            let aside = (to_center - disc.axis * along).length();
-            // Half of the width of the penumbra.
-            let wide = (along * disc.sine).abs();
-            let middle = aside * disc.cosine - other.radius();
-            is_dark |= along > 0.0 && middle + wide < -extent.around;
-            let touches = |edge: f64| edge.abs() <= extent.around;
-            if wide <= extent.around {
-                doubt = 0.5;
-            } else if touches(middle - wide) || touches(middle + wide) {
-                let size = other.radius() / wide;
-                let share = (extent.around / wide).sqrt() * (extent.around / wide);
-                doubt = doubt.max(OF_EDGE * share * (size * size).min(1.0));
-            }
-        });
-    if is_dark { 0.0 } else { doubt }
+    let size = radius / height.wide;
+    let share = (around / height.wide).sqrt() * (around / height.wide);
+    OF_EDGE * share * (size * size).min(1.0)
 }
 
 /// Small spheres right above a cell.
-fn of_small_spheres(extent: &Extent, sphere: usize, occluders: Option<&Occluders<'_>>) -> f64 {
+pub(crate) fn of_small_spheres(
+    extent: &Extent,
+    sphere: usize,
+    occluders: Option<&Occluders<'_>>,
+) -> f64 {
     /// Spheres within so many times the size of the cell that are not as many times as large.
     const NEAR: f64 = 2.0;
     let Some(occluders) = occluders else {

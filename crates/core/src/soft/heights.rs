@@ -3,10 +3,24 @@
 //! Contours and seams are circles in space. Between the heights at which they enter and leave the cell at its sides, and
 //! those of their highest and lowest points, the ends of spans move smoothly, but for places where three spheres meet.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::line::{Candidate, Span, spans};
 use crate::model::camera::Projection;
+
+/// A height, and whether something begins or ends there that widens with the square root of the distance from it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Height {
+    pub(crate) v: f64,
+    pub(crate) is_turn: bool,
+}
+
+impl Height {
+    /// One at which something crosses a side of the cell.
+    pub(crate) fn crossing(v: f64) -> Self {
+        Self { v, is_turn: false }
+    }
+}
 
 /// A circle in space.
 struct Circle {
@@ -25,8 +39,8 @@ impl Circle {
         }
     }
 
-    /// The heights of its highest and its lowest point in the picture.
-    fn extremes(&self, projection: Projection) -> Option<[f64; 2]> {
+    /// Its highest and its lowest point in the picture.
+    fn extremes(&self, projection: Projection) -> Option<[DVec2; 2]> {
         let [a, b] = self.arms;
         // Where c cos φ + s sin φ + rest = 0, the height of the point c cos φ + … does not change with φ.
         let (c, s, rest) = match projection {
@@ -42,16 +56,16 @@ impl Circle {
         if !(root.is_finite() && square > 0.0) {
             return None;
         }
-        let height = |sign: f64| {
+        let extreme = |sign: f64| {
             let cosine = (-rest * c - sign * s * root) / square;
             let sine = (-rest * s + sign * c * root) / square;
             let point = self.center + a * cosine + b * sine;
             match projection {
-                Projection::Central => point.y / point.z,
-                Projection::Parallel => point.y,
+                Projection::Central => point.truncate() / point.z,
+                Projection::Parallel => point.truncate(),
             }
         };
-        Some([height(1.0), height(-1.0)])
+        Some([extreme(1.0), extreme(-1.0)])
     }
 }
 
@@ -85,18 +99,23 @@ fn seam(one: &Candidate, other: &Candidate) -> Option<Circle> {
         .then(|| Circle::new(one.center + normal * along, normal, radius_sq))
 }
 
-/// Finds these heights within those of a cell, from its lowest to its highest.
+/// Finds these heights within those of a cell, from its lowest to its highest. Calls `visit` with what is seen along the cell's
+/// left and right side, and with more heights to add.
 pub(crate) fn heights(
     candidates: &[Candidate],
     (u, v): ([f64; 2], [f64; 2]),
     projection: Projection,
     (ends, found): (&mut Vec<f64>, &mut Vec<Span>),
-) -> Vec<f64> {
-    let mut heights = vec![v[0], v[1]];
+    mut visit: impl FnMut(f64, &Span, &mut Vec<Height>),
+) -> Vec<Height> {
+    let mut heights = v.map(Height::crossing).to_vec();
     let turned: Vec<Candidate> = candidates.iter().map(Candidate::transposed).collect();
     for side in u {
         spans(&turned, v, side, projection, ends, found);
-        heights.extend(found.iter().map(|span| span.end));
+        heights.extend(found.iter().map(|span| Height::crossing(span.end)));
+        for span in &*found {
+            visit(side, span, &mut heights);
+        }
     }
     for (place, candidate) in candidates.iter().enumerate() {
         let radii = [Some(candidate.radius), candidate.inner];
@@ -106,11 +125,20 @@ pub(crate) fn heights(
             .iter()
             .filter_map(|other| seam(candidate, other));
         for circle in contours.chain(seams) {
-            heights.extend(circle.extremes(projection).into_iter().flatten());
+            let points = circle.extremes(projection).into_iter().flatten();
+            let inside = points.filter(|point| (u[0]..=u[1]).contains(&point.x));
+            heights.extend(inside.map(|point| Height {
+                v: point.y,
+                is_turn: true,
+            }));
         }
     }
-    heights.retain(|height| (v[0]..=v[1]).contains(height));
-    heights.sort_unstable_by(f64::total_cmp);
-    heights.dedup();
+    heights.retain(|height| (v[0]..=v[1]).contains(&height.v));
+    heights.sort_unstable_by(|one, other| one.v.total_cmp(&other.v));
+    heights.dedup_by(|later, height| {
+        let is_same = later.v == height.v;
+        height.is_turn |= is_same && later.is_turn;
+        is_same
+    });
     heights
 }

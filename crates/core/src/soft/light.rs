@@ -3,14 +3,16 @@
 use glam::DVec3;
 
 use super::cap::Cap;
+use super::edges::Edge;
 use super::point::{Occluders, SurfacePoint};
 use super::sky::sky_light;
-use super::sun::Sun;
+use super::sun::{Received, Sun};
 use super::visible::Hidden;
 use crate::model::color::Color;
 use crate::model::light::DirectionalLight;
 use crate::model::sky::Sky;
 use crate::model::world::World;
+use crate::search::beyond::Beyond;
 
 /// One of the soft lights.
 #[derive(Clone, Copy, Debug)]
@@ -43,25 +45,48 @@ impl SoftLight {
         occluders: Option<&Occluders<'_>>,
         hidden: &mut Hidden,
     ) -> Color {
-        let albedo = world.albedo(point.sphere);
         match self {
-            Self::Sky(sky) => albedo * sky_light(sky, point, occluders, hidden),
+            Self::Sky(sky) => world.albedo(point.sphere) * sky_light(sky, point, occluders, hidden),
             Self::Sun(sun) => {
-                let received = sun.received(point, occluders, hidden);
-                if received.share == 0.0 {
-                    return Color::ZERO;
+                let mut edges = Vec::new();
+                if let Some(occluders) = occluders {
+                    let toward = Beyond::Cone {
+                        apex: point.position,
+                        around: 0.0,
+                        axis: sun.disc.axis,
+                        sine: sun.disc.sine,
+                        cosine: sun.disc.cosine,
+                    };
+                    occluders.for_each_sphere(point.sphere, &toward, |sphere| {
+                        edges.push(Edge::Sphere {
+                            center: sphere.center(),
+                            radius: sphere.radius(),
+                        });
+                    });
                 }
-                let material = world.material(point.sphere);
-                let diffuse = power(received.whole, material.exponent);
-                let mut light = albedo * diffuse;
-                if let Some(highlight) = &material.highlight {
-                    light +=
-                        Color::splat(highlight.strength * shine(sun, point, highlight.shininess));
-                }
-                light * sun.intensity * received.share
+                sun_light(sun, point, sun.received(point, &edges, hidden), world)
             }
         }
     }
+}
+
+/// The light of a sun that a point reflects toward the eye.
+pub(crate) fn sun_light(
+    sun: &Sun,
+    point: &SurfacePoint,
+    received: Received,
+    world: &World,
+) -> Color {
+    if received.share == 0.0 {
+        return Color::ZERO;
+    }
+    let material = world.material(point.sphere);
+    let diffuse = power(received.whole, material.exponent);
+    let mut light = world.albedo(point.sphere) * diffuse;
+    if let Some(highlight) = &material.highlight {
+        light += Color::splat(highlight.strength * shine(sun, point, highlight.shininess));
+    }
+    light * sun.intensity * received.share
 }
 
 /// The power of n·h, with the middle of the disc for the light; 0 where that is not above the surface.

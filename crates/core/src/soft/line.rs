@@ -8,6 +8,8 @@ use crate::model::camera::Projection;
 /// A sphere in the camera's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
+    /// Its place among those of the tile.
+    pub(crate) number: usize,
     pub(crate) sphere: usize,
     pub(crate) center: DVec3,
     pub(crate) radius: f64,
@@ -30,8 +32,14 @@ pub(crate) struct Span {
 const BISECTIONS: u32 = 40;
 
 impl Candidate {
-    pub(crate) fn new(ball: &Ball, camera_from_world: &DMat3, inner: Option<f64>) -> Self {
+    pub(crate) fn new(
+        ball: &Ball,
+        number: usize,
+        camera_from_world: &DMat3,
+        inner: Option<f64>,
+    ) -> Self {
         Self {
+            number,
             sphere: ball.index as usize,
             center: *camera_from_world * ball.to_center,
             radius: ball.radius,
@@ -50,7 +58,7 @@ impl Candidate {
 
     /// What is positive where a ray through (u, v) meets the concentric sphere of a radius: of rays from the eye in the
     /// direction (u, v, 1) times their squared length.
-    fn meets(&self, u: f64, v: f64, radius: f64, projection: Projection) -> f64 {
+    pub(super) fn meets(&self, u: f64, v: f64, radius: f64, projection: Projection) -> f64 {
         match projection {
             Projection::Central => {
                 let ray = DVec3::new(u, v, 1.0);
@@ -86,6 +94,19 @@ impl Candidate {
                     (far, true)
                 })
             }
+        }
+    }
+
+    /// The distance at which a ray meets the sphere from outside, in multiples of the ray; that of the nearest place for a ray
+    /// that passes beside it.
+    pub(super) fn nearest_distance(&self, u: f64, v: f64, projection: Projection) -> f64 {
+        let root = self.meets(u, v, self.radius, projection).max(0.0).sqrt();
+        match projection {
+            Projection::Central => {
+                let along = DVec3::new(u, v, 1.0).dot(self.center);
+                self.outside / (along + root)
+            }
+            Projection::Parallel => self.center.z - root,
         }
     }
 

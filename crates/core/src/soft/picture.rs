@@ -5,10 +5,13 @@ use std::num::NonZeroU32;
 use glam::{DMat3, DVec2, DVec3};
 
 use super::cell::{Cell, Cells, Integral};
-use super::doubt::{Extent, doubt};
+use super::doubt::{Extent, of_bumps, of_small_spheres};
+use super::edges::Edge;
 use super::light::SoftLight;
 use super::line::Candidate;
+use super::of_sun::{OfSun, SunMemory, strongest_highlight};
 use super::point::{Occluders, SurfacePoint};
+use super::sun::Sun;
 use super::visible::Hidden;
 use crate::hit::outcome::Hit;
 use crate::light::shading_normal::ShadingNormal;
@@ -20,6 +23,7 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::pixel::{Evidence, Method, Pixel, Status, Work};
 use crate::picture::tile::Tile;
+use crate::search::beyond::Beyond;
 use crate::search::view_index::ViewIndex;
 
 /// The soft light of a view of a world.
@@ -37,6 +41,7 @@ pub(crate) struct Soft<'scene> {
 pub(crate) struct Scratch {
     /// None before the first tile with soft light: most worlds have none.
     cells: Option<Box<Cells>>,
+    of_suns: Option<Box<SunMemory>>,
     hidden: Hidden,
 }
 
@@ -107,11 +112,7 @@ impl<'scene> Soft<'scene> {
             return None;
         }
         let normal = hit.normal;
-        let shading = match ShadingNormal::new(self.world, sphere, key) {
-            ShadingNormal::Smooth => normal,
-            ShadingNormal::Bumpy(bumps) => bumps.perturb(normal),
-            ShadingNormal::Factors(factors) => (normal * factors).normalize(),
-        };
+        let shading = ShadingNormal::new(self.world, sphere, key).of(normal);
         Some(SurfacePoint {
             position: ray.at(hit.t),
             normal,
@@ -202,36 +203,60 @@ impl<'scene> Soft<'scene> {
         pixels: &mut [Pixel],
     ) -> Work {
         let candidates = self.candidates(tile);
-        let Scratch { cells, hidden } = scratch;
+        let Scratch {
+            cells,
+            of_suns,
+            hidden,
+        } = scratch;
+        let of_suns = of_suns.get_or_insert_default();
         let cells = cells.get_or_insert_default();
         let before = cells.points;
         let share = Self::SHARE * tolerance / self.lights.len() as f64;
+        let projection = self.view.lens.projection();
         for light in &self.lights {
             cells.begin();
-            let most = match light {
-                SoftLight::Sun(_) => MOST_POINTS_OF_SUN,
-                SoftLight::Sky(_) => MOST_POINTS_OF_SKY,
+            let in_camera = match light {
+                SoftLight::Sun(sun) => Some(sun.turned(&self.camera_from_world())),
+                SoftLight::Sky(_) => None,
+            };
+            let casters = match (&in_camera, &candidates) {
+                (Some(sun), Some(candidates)) => self.casters(tile, sun, candidates),
+                _ => Vec::new(),
             };
             for ((col, row), pixel) in tile.pixels().zip(&mut *pixels) {
-                let mut of_pixel = OfPixel {
-                    soft: self,
-                    light,
-                    key: self.key(col, row),
-                    hidden,
-                    projection: self.view.lens.projection(),
-                };
-                let average = match &candidates {
-                    Some(candidates) => cells.average(
-                        &mut of_pixel,
-                        (self.cell(col, row), self.view.lens.projection()),
-                        candidates,
-                        (share, most),
-                    ),
+                let key = self.key(col, row);
+                let cell = (self.cell(col, row), projection);
+                let average = match (&candidates, &in_camera) {
                     // Numbers that are too extreme.
-                    None => Integral {
+                    (None, _) => Integral {
                         value: Color::ZERO,
-                        error: of_pixel.brightest_light(),
+                        error: brightest(self.world, light),
                     },
+                    (Some(candidates), Some(sun)) => {
+                        let mut of_sun = OfSun {
+                            world: self.world,
+                            sun,
+                            world_from_camera: &self.view.camera.world_from_camera,
+                            projection,
+                            key,
+                            casters: &casters,
+                            memory: of_suns,
+                            hidden,
+                        };
+                        let most = MOST_POINTS_OF_SUN;
+                        cells.average(&mut of_sun, cell, candidates, (share, most))
+                    }
+                    (Some(candidates), None) => {
+                        let mut of_pixel = OfPixel {
+                            soft: self,
+                            light,
+                            key,
+                            hidden,
+                            projection,
+                        };
+                        let most = MOST_POINTS_OF_SKY;
+                        cells.average(&mut of_pixel, cell, candidates, (share, most))
+                    }
                 };
                 pixel.value += average.value;
                 pixel.error += average.error;
@@ -251,18 +276,54 @@ impl<'scene> Soft<'scene> {
         }
     }
 
+    /// For each candidate of a tile what may hide a sun from what the tile sees of it, in the camera's frame.
+    fn casters(&self, tile: Tile, sun: &Sun, candidates: &[Candidate]) -> Vec<Vec<Edge>> {
+        let Some(occluders) = self.occluders() else {
+            return vec![Vec::new(); candidates.len()];
+        };
+        let scale = libm::scalbn(1.0, self.index.length_exponent());
+        let axes = &self.view.camera.world_from_camera;
+        let (eye, camera_from_world) = (self.view.camera.position, self.camera_from_world());
+        let [first, last] = [
+            self.cell(tile.col, tile.row + tile.height - 1),
+            self.cell(tile.col + tile.width - 1, tile.row),
+        ];
+        let cell = [[first.u[0], last.u[1]], [first.v[0], last.v[1]]];
+        let of = candidates.iter().map(|candidate| {
+            let extent = Extent::new(candidate, cell, self.view.lens.projection());
+            let extent = extent.in_world(axes, eye, scale);
+            let toward = Beyond::Cone {
+                apex: extent.middle,
+                around: extent.around,
+                axis: *axes * sun.disc.axis,
+                sine: sun.disc.sine,
+                cosine: sun.disc.cosine,
+            };
+            let mut casters = Vec::new();
+            occluders.for_each_sphere(candidate.sphere, &toward, |sphere| {
+                casters.push(Edge::Sphere {
+                    center: camera_from_world * (sphere.center() - eye) / scale,
+                    radius: sphere.radius() / scale,
+                });
+            });
+            casters
+        });
+        of.collect()
+    }
+
     /// The spheres that a tile may see; none if numbers are too extreme for doubles.
     fn candidates(&self, tile: Tile) -> Option<Vec<Candidate>> {
         let camera_from_world = self.camera_from_world();
         let scale = libm::scalbn(1.0, -self.index.length_exponent());
         self.index
             .balls(tile)
-            .map(|ball| {
+            .enumerate()
+            .map(|(number, ball)| {
                 let index = ball.index as usize;
                 let center = camera_from_world * ball.to_center / scale;
                 let inner = self.inner_radius(index, center, ball.radius / scale);
                 let inner = inner.map(|inner| inner * scale);
-                (!ball.is_odd()).then(|| Candidate::new(ball, &camera_from_world, inner))
+                (!ball.is_odd()).then(|| Candidate::new(ball, number, &camera_from_world, inner))
             })
             .collect()
     }
@@ -304,12 +365,14 @@ struct OfPixel<'a, 'scene> {
     projection: Projection,
 }
 
+/// A bound of the light of any surface.
+fn brightest(world: &World, light: &SoftLight) -> f64 {
+    light.brightest().max_element() * (1.0 + strongest_highlight(world))
+}
+
 impl OfPixel<'_, '_> {
     fn brightest_light(&self) -> f64 {
-        let world = self.soft.world;
-        let strengths = world.materials().iter().filter_map(|one| one.highlight);
-        let strength = strengths.fold(0.0_f64, |most, one| most.max(one.strength));
-        self.light.brightest().max_element() * (1.0 + strength)
+        brightest(self.soft.world, self.light)
     }
 
     fn point(&self, candidate: &Candidate, place: DVec2) -> Option<SurfacePoint> {
@@ -336,14 +399,13 @@ impl super::cell::Light for OfPixel<'_, '_> {
         let axes = &soft.view.camera.world_from_camera;
         let extent = extent.in_world(axes, soft.view.camera.position, scale);
         let normal = ShadingNormal::new(soft.world, candidate.sphere, self.key);
-        let brightest = self.brightest_light();
-        doubt(
-            self.light,
-            &extent,
-            (soft.world, candidate.sphere),
-            &normal,
-            soft.occluders().as_ref(),
-        ) * brightest
+        let of_spheres = of_small_spheres(&extent, candidate.sphere, soft.occluders().as_ref());
+        of_bumps(&extent, &normal).max(of_spheres) * self.brightest_light()
+    }
+
+    fn is_shared(&self, candidate: &Candidate) -> bool {
+        let normal = ShadingNormal::new(self.soft.world, candidate.sphere, self.key);
+        !matches!(normal, ShadingNormal::Factors(_))
     }
 
     fn brightest(&self) -> f64 {

@@ -3,11 +3,13 @@
 use glam::DVec3;
 
 use super::cap::Cap;
+use super::line::Candidate;
+use crate::model::camera::Projection;
 use crate::model::sphere::Sphere;
 use crate::search::beyond::Beyond;
 use crate::search::hierarchy::Hierarchy;
 
-/// A point of a sphere, seen from outside, in the world's frame.
+/// A point of a sphere, seen from outside: in the world's frame, or in the camera's and the units of candidates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfacePoint {
     pub(crate) position: DVec3,
@@ -17,6 +19,36 @@ pub(crate) struct SurfacePoint {
     /// The unit vector toward the eye.
     pub(crate) to_eye: DVec3,
     pub(crate) sphere: usize,
+}
+
+impl SurfacePoint {
+    /// The lesser sine of the angle of a direction above the surface and above the plane across the shading normal.
+    pub(crate) fn least_height(&self, direction: DVec3) -> f64 {
+        self.normal.dot(direction).min(self.shading.dot(direction))
+    }
+}
+
+impl Candidate {
+    /// Where the ray through (u, v) meets the sphere from outside, in the camera's frame. A ray that passes beside it counts
+    /// as one that touches it.
+    pub(crate) fn surface_point(&self, u: f64, v: f64, projection: Projection) -> SurfacePoint {
+        let distance = self.nearest_distance(u, v, projection);
+        let (position, to_eye) = match projection {
+            Projection::Central => {
+                let ray = DVec3::new(u, v, 1.0);
+                (ray * distance, -ray.normalize())
+            }
+            Projection::Parallel => (DVec3::new(u, v, distance), DVec3::NEG_Z),
+        };
+        let normal = (position - self.center).normalize();
+        SurfacePoint {
+            position,
+            normal,
+            shading: normal,
+            to_eye,
+            sphere: self.sphere,
+        }
+    }
 }
 
 /// The spheres that hide light from each other.
@@ -35,15 +67,28 @@ impl Occluders<'_> {
         beyond: &Beyond,
         mut visit: impl FnMut(Cap),
     ) {
-        let own = &self.spheres[point.sphere];
+        self.for_each_sphere(point.sphere, beyond, |sphere| {
+            visit(Cap::of_sphere(
+                sphere.center() - point.position,
+                sphere.radius(),
+            ));
+        });
+    }
+
+    /// Calls `visit` with all spheres but one that may lie in some directions. A sphere that coincides with that one hides
+    /// nothing.
+    pub(crate) fn for_each_sphere(
+        &self,
+        but: usize,
+        beyond: &Beyond,
+        mut visit: impl FnMut(&Sphere),
+    ) {
+        let own = &self.spheres[but];
         self.hierarchy
             .for_each_beyond(self.spheres, beyond, |index| {
                 let sphere = &self.spheres[index];
-                if index != point.sphere && sphere != own {
-                    visit(Cap::of_sphere(
-                        sphere.center() - point.position,
-                        sphere.radius(),
-                    ));
+                if index != but && sphere != own {
+                    visit(sphere);
                 }
             });
     }

@@ -1,11 +1,13 @@
 //! A sun with a disc, and the part of its light that reaches a point.
 
+use glam::DMat3;
+
 use super::cap::Cap;
-use super::point::{Occluders, SurfacePoint};
+use super::edges::Edge;
+use super::point::SurfacePoint;
 use super::sky::add_horizons;
 use super::visible::{Hidden, share_of};
 use crate::model::color::Color;
-use crate::search::beyond::Beyond;
 
 /// A light of infinite distance that is not a point.
 #[derive(Clone, Copy, Debug)]
@@ -24,45 +26,54 @@ pub(crate) struct Received {
 }
 
 impl Sun {
-    /// What a point receives.
+    /// The same sun in another frame.
+    pub(crate) fn turned(&self, rotation: &DMat3) -> Self {
+        let mut turned = *self;
+        turned.disc.axis = *rotation * self.disc.axis;
+        turned
+    }
+
+    /// What a point receives, where some edges may hide a part of the disc.
     pub(crate) fn received(
         &self,
-        point: &SurfacePoint,
-        occluders: Option<&Occluders<'_>>,
+        place: &SurfacePoint,
+        edges: &[Edge],
         hidden: &mut Hidden,
     ) -> Received {
         let disc = &self.disc;
-        let heights = [point.normal, point.shading].map(|normal| normal.dot(disc.axis));
-        if heights[0].min(heights[1]) <= -disc.sine {
+        let height = place.least_height(disc.axis);
+        if height <= -disc.sine {
             return Received::default();
         }
         hidden.clear();
-        let is_above = heights[0].min(heights[1]) >= disc.sine;
-        let whole = if is_above {
+        let whole = if height >= disc.sine {
             // s² π n·a over the solid angle.
-            heights[1] * 0.5 * (1.0 + disc.cosine)
+            place.shading.dot(disc.axis) * 0.5 * (1.0 + disc.cosine)
         } else {
-            add_horizons(point, hidden);
-            share_of(hidden.seen_of(disc), point.shading, disc)
+            add_horizons(place, hidden);
+            share_of(hidden.seen_of(disc), place.shading, disc)
         };
         if whole <= 0.0 {
             return Received::default();
         }
-        let horizons = hidden.len();
-        if let Some(occluders) = occluders {
-            let toward = Beyond::Cone {
-                apex: point.position,
-                around: 0.0,
-                axis: disc.axis,
-                sine: disc.sine,
-                cosine: disc.cosine,
-            };
-            occluders.for_each(point, &toward, |cap| hidden.add(cap));
+        let mut is_partial = false;
+        for edge in edges {
+            if matches!(edge, Edge::Horizon) {
+                continue;
+            }
+            let height = edge.height(place, disc);
+            if height.inner <= 0.0 {
+                return Received { whole, share: 0.0 };
+            }
+            if height.outer < 0.0 {
+                is_partial = true;
+                edge.hide(place, hidden);
+            }
         }
-        if hidden.len() == horizons {
+        if !is_partial {
             return Received { whole, share: 1.0 };
         }
-        let seen = share_of(hidden.seen_of(disc), point.shading, disc);
+        let seen = share_of(hidden.seen_of(disc), place.shading, disc);
         Received {
             whole,
             share: (seen / whole).clamp(0.0, 1.0),

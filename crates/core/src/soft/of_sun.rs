@@ -1,0 +1,250 @@
+//! The light of a sun in one pixel.
+
+use glam::{DMat3, DVec2};
+
+use super::cell::{Cell, Contents, Light};
+use super::doubt::{Extent, of_bumps, of_highlight, of_penumbra, of_terminator};
+use super::edges::{Edge, KNOTS, add_breaks};
+use super::light::sun_light;
+use super::line::Candidate;
+use super::point::SurfacePoint;
+use super::strips::Curve;
+use super::sun::Sun;
+use super::visible::Hidden;
+use crate::light::shading_normal::ShadingNormal;
+use crate::model::camera::Projection;
+use crate::model::color::Color;
+use crate::model::roughness::PixelKey;
+use crate::model::world::World;
+use crate::numeric::jacobi::JacobiRule;
+
+/// The nodes on a part of a curve.
+const NODES: usize = 3;
+
+/// What a thread keeps for suns.
+#[derive(Debug)]
+pub(crate) struct SunMemory {
+    rule: JacobiRule<NODES>,
+    /// For each candidate of a cell.
+    edges: Vec<Vec<Edge>>,
+    breaks: Vec<f64>,
+}
+
+impl Default for SunMemory {
+    fn default() -> Self {
+        Self {
+            rule: JacobiRule::new(0.0),
+            edges: Vec::new(),
+            breaks: Vec::new(),
+        }
+    }
+}
+
+/// The light of a sun in one pixel, in the camera's frame.
+pub(crate) struct OfSun<'a> {
+    pub(crate) world: &'a World,
+    pub(crate) sun: &'a Sun,
+    pub(crate) world_from_camera: &'a DMat3,
+    pub(crate) projection: Projection,
+    pub(crate) key: PixelKey,
+    /// For each candidate of the tile what may hide the sun from it.
+    pub(crate) casters: &'a [Vec<Edge>],
+    pub(crate) memory: &'a mut SunMemory,
+    pub(crate) hidden: &'a mut Hidden,
+}
+
+/// The strength of the strongest highlight, 0 without any.
+pub(crate) fn strongest_highlight(world: &World) -> f64 {
+    let strengths = world.materials().iter().filter_map(|one| one.highlight);
+    strengths.fold(0.0, |most, one| most.max(one.strength))
+}
+
+/// Half of a penumbra's width, in parts of the size of a cell, below which its edges are looked for.
+const NARROW: f64 = 3.0;
+
+/// The claim of a part of a curve, in parts of the second difference of its nodes. Not tuned.
+const OF_BEND: f64 = 0.03;
+
+impl OfSun<'_> {
+    fn place(&self, candidate: &Candidate, shading: &ShadingNormal, at: DVec2) -> SurfacePoint {
+        let mut place = candidate.surface_point(at.x, at.y, self.projection);
+        if !shading.is_smooth() {
+            let normal = *self.world_from_camera * place.normal;
+            let rough = shading.of(normal);
+            place.shading = self.world_from_camera.transpose() * rough;
+        }
+        place
+    }
+
+    fn shading(&self, candidate: &Candidate) -> ShadingNormal {
+        ShadingNormal::new(self.world, candidate.sphere, self.key)
+    }
+
+    fn light(&mut self, place: &SurfacePoint, number: usize) -> Color {
+        let received = self
+            .sun
+            .received(place, &self.memory.edges[number], self.hidden);
+        sun_light(self.sun, place, received, self.world)
+    }
+
+    /// Finds what may hide a part of the sun from what a cell sees of a candidate; returns false if all of it is hidden.
+    fn find_edges(&mut self, candidate: &Candidate, extent: &Extent, number: usize) -> bool {
+        let shading = self.shading(candidate);
+        let disc = &self.sun.disc;
+        if self.memory.edges.len() <= number {
+            self.memory.edges.resize_with(number + 1, Vec::new);
+        }
+        let edges = &mut self.memory.edges[number];
+        edges.clear();
+        let turn = extent.turn.min(4.0);
+        let rough_turn = turn * shading.slope_bound();
+        let height = extent.normal.dot(disc.axis);
+        if height <= -(disc.sine + turn) {
+            return false;
+        }
+        if height - turn.max(rough_turn) - shading.most_tilt() < disc.sine {
+            edges.push(Edge::Horizon);
+        }
+        let middle = SurfacePoint {
+            position: extent.middle,
+            normal: extent.normal,
+            shading: extent.normal,
+            to_eye: extent.to_eye,
+            sphere: candidate.sphere,
+        };
+        for caster in &self.casters[candidate.number] {
+            let height = caster.height(&middle, disc);
+            if height.inner < -extent.around {
+                return false;
+            }
+            if height.outer <= extent.around {
+                edges.push(*caster);
+            }
+        }
+        true
+    }
+}
+
+impl Light for OfSun<'_> {
+    fn at(&mut self, candidate: &Candidate, at: DVec2) -> Option<Color> {
+        let shading = self.shading(candidate);
+        let place = self.place(candidate, &shading, at);
+        Some(self.light(&place, 0))
+    }
+
+    fn is_shared(&self, candidate: &Candidate) -> bool {
+        !matches!(self.shading(candidate), ShadingNormal::Factors(_))
+    }
+
+    fn doubt(&mut self, candidate: &Candidate, cell: &Cell) -> f64 {
+        let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
+        let shading = self.shading(candidate);
+        let of_surface = of_bumps(&extent, &shading).max(of_highlight(
+            self.sun,
+            &extent,
+            (self.world, candidate.sphere),
+            &shading,
+        ));
+        of_surface * self.brightest()
+    }
+
+    fn brightest(&self) -> f64 {
+        self.sun.intensity.max_element() * (1.0 + strongest_highlight(self.world))
+    }
+
+    fn may_see(&self, candidate: &Candidate, cell: &Cell) -> bool {
+        candidate.may_be_in(cell.u, cell.v, self.projection)
+    }
+
+    fn contents(&mut self, candidate: &Candidate, cell: &Cell, number: usize) -> Contents {
+        let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
+        if !self.find_edges(candidate, &extent, number) {
+            return Contents::Dark;
+        }
+        let middle = SurfacePoint {
+            position: extent.middle,
+            normal: extent.normal,
+            shading: extent.normal,
+            to_eye: extent.to_eye,
+            sphere: candidate.sphere,
+        };
+        let shading = self.shading(candidate);
+        let mut doubt = 0.0_f64;
+        let mut is_narrow = false;
+        for edge in &self.memory.edges[number] {
+            match edge {
+                Edge::Horizon => {
+                    let turn = extent.turn * shading.slope_bound();
+                    is_narrow |= turn > self.sun.disc.sine / NARROW;
+                    doubt = doubt.max(of_terminator(self.sun, &extent, &shading));
+                }
+                Edge::Sphere { radius, .. } => {
+                    let height = edge.height(&middle, &self.sun.disc);
+                    is_narrow |= height.wide < NARROW * extent.around;
+                    doubt = doubt.max(of_penumbra(&height, *radius, extent.around));
+                }
+            }
+        }
+        if is_narrow {
+            Contents::Edges
+        } else {
+            Contents::Smooth {
+                doubt: doubt * self.brightest(),
+            }
+        }
+    }
+
+    fn add_breaks(
+        &mut self,
+        candidate: &Candidate,
+        curve: &Curve,
+        number: usize,
+        breaks: &mut Vec<f64>,
+    ) {
+        let shading = self.shading(candidate);
+        let disc = self.sun.disc;
+        let knots: [SurfacePoint; KNOTS] = std::array::from_fn(|index| {
+            let at = curve.at(index as f64 / (KNOTS - 1) as f64);
+            self.place(candidate, &shading, at)
+        });
+        for edge in &self.memory.edges[number] {
+            let heights = knots.map(|place| edge.height(&place, &disc));
+            add_breaks(
+                &heights,
+                |place| edge.height(&self.place(candidate, &shading, curve.at(place)), &disc),
+                breaks,
+            );
+        }
+    }
+
+    fn along(&mut self, candidate: &Candidate, curve: &Curve, number: usize) -> (Color, f64) {
+        let shading = self.shading(candidate);
+        let mut breaks = std::mem::take(&mut self.memory.breaks);
+        breaks.clear();
+        breaks.push(0.0);
+        self.add_breaks(candidate, curve, number, &mut breaks);
+        breaks.push(1.0);
+        breaks.sort_unstable_by(f64::total_cmp);
+        let (mut sum, mut error) = (Color::ZERO, 0.0);
+        let rule = self.memory.rule;
+        for ends in breaks.windows(2) {
+            let [begin, length] = [ends[0], ends[1] - ends[0]];
+            if length <= 0.0 {
+                continue;
+            }
+            let mut of_nodes = [Color::ZERO; NODES];
+            let nodes = rule.nodes.iter().zip(rule.weights);
+            for ((node, weight), light) in nodes.zip(&mut of_nodes) {
+                let at = begin + length * node;
+                let place = self.place(candidate, &shading, curve.at(at));
+                *light = self.light(&place, number);
+                sum += *light * (weight * length * curve.along.at(at).1);
+            }
+            let bend = of_nodes[0] - 2.0 * of_nodes[1] + of_nodes[2];
+            let part = curve.along.at(ends[1]).0 - curve.along.at(begin).0;
+            error += bend.abs().max_element() * OF_BEND * part;
+        }
+        self.memory.breaks = breaks;
+        (sum, error)
+    }
+}
