@@ -14,6 +14,7 @@ use glam::DVec2;
 use super::heights::heights;
 use super::line::{Candidate, Span, spans};
 use super::piece::{BANDS, Piece, mean_of_fit};
+use super::seam::Seam;
 use super::strips::{Curve, Strips};
 use crate::model::camera::Projection;
 use crate::model::color::Color;
@@ -48,20 +49,40 @@ pub(crate) trait Light {
         Contents::Unknown
     }
 
-    /// Adds the places on a curve, from 0 to 1, at which light is not smooth.
+    /// Adds the places on a curve, from 0 to 1, at which light is not smooth. Returns false if there is no light on it.
     fn add_breaks(
         &mut self,
         _candidate: &Candidate,
         _curve: &Curve,
         _number: usize,
         _breaks: &mut Vec<f64>,
-    ) {
+    ) -> bool {
+        true
     }
 
-    /// The integral along a curve, and an estimate of its error.
-    fn along(&mut self, _candidate: &Candidate, _curve: &Curve, _number: usize) -> (Color, f64) {
-        (Color::ZERO, self.brightest())
+    /// The integral along a curve; the limit is for its error in parts of the curve's length.
+    fn along(
+        &mut self,
+        _candidate: &Candidate,
+        _curve: &Curve,
+        _number: usize,
+        _limit: f64,
+    ) -> Along {
+        Along {
+            error: self.brightest(),
+            ..Along::default()
+        }
     }
+}
+
+/// Light along a curve.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Along {
+    pub(crate) integral: Color,
+    /// An estimate of its error.
+    pub(crate) error: f64,
+    /// The number of places at which light is not smooth.
+    pub(crate) breaks: usize,
 }
 
 /// What light is like in a cell.
@@ -73,8 +94,9 @@ pub(crate) enum Contents {
     Dark,
     /// It is smooth but for changes of a part of the brightest light.
     Smooth { doubt: f64 },
-    /// It changes over widths that are small beside the cell: its breaks are to be looked for.
-    Edges,
+    /// It changes over widths that are small beside the cell: its breaks are to be looked for. What they may miss is a part of
+    /// the brightest light.
+    Edges { doubt: f64 },
 }
 
 /// The integral over a cell, and an estimate of its error.
@@ -120,6 +142,7 @@ pub(crate) struct Cells {
     ends: Vec<f64>,
     spans: Vec<Span>,
     strips: Strips,
+    seams: Vec<Seam>,
     /// The light at corners and middles, which cells have in common: at each place the last of those that belong there.
     known: Vec<Option<Known>>,
     /// Points of light that were computed, and cells in which some sphere may be seen.
@@ -134,6 +157,7 @@ impl Default for Cells {
             ends: Vec::new(),
             spans: Vec::new(),
             strips: Strips::default(),
+            seams: Vec::new(),
             known: vec![None; KNOWN],
             points: 0,
         }
@@ -240,7 +264,7 @@ impl Cells {
             [only] if only.fills(cell.u, cell.v, projection) => {
                 match light.contents(only, &cell, 0) {
                     Contents::Dark => Integral::default(),
-                    Contents::Edges => {
+                    Contents::Edges { .. } => {
                         self.in_strips(light, (&cell, projection), &candidates, limit)
                     }
                     contents => {
@@ -366,10 +390,12 @@ impl Cells {
             few,
             ends,
             spans: found,
+            seams,
             ..
         } = self;
+        Seam::all(candidates, seams);
         let heights = heights(
-            candidates,
+            (candidates, seams),
             (cell.u, cell.v),
             projection,
             (ends, found),
@@ -387,7 +413,7 @@ impl Cells {
             let (low, height) = (ends_of_strip[0].v, ends_of_strip[1].v - ends_of_strip[0].v);
             for (node, weight) in &*rule {
                 let v = low + height * *node;
-                spans(candidates, cell.u, v, projection, ends, found);
+                spans((candidates, seams), cell.u, v, projection, ends, found);
                 let band = (v - cell.v[0]) / (cell.v[1] - cell.v[0]) * BANDS as f64;
                 let band = (band as usize).min(BANDS - 1);
                 for Span { begin, end, seen } in &*found {
@@ -401,7 +427,7 @@ impl Cells {
             }
             for (node, weight) in &*few {
                 spans(
-                    candidates,
+                    (candidates, seams),
                     cell.u,
                     low + height * *node,
                     projection,

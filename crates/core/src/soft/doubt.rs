@@ -157,6 +157,19 @@ pub(crate) fn of_penumbra(height: &Height, radius: f64, around: f64) -> f64 {
     OF_EDGE * share * (size * size).min(1.0)
 }
 
+/// A shadow that lies between the lines of a cell of some size.
+pub(crate) fn of_speck(height: &Height, radius: f64, around: f64) -> f64 {
+    /// Lines are closer to each other than so many times the size of the cell.
+    const GAP: f64 = 0.4;
+    let (size, depth) = (radius + height.wide, radius / height.wide);
+    if size > GAP * around {
+        return 0.0;
+    }
+    // Half of the cell's area is at least that of the size's square.
+    let part = size / around;
+    (part * part * (depth * depth).min(1.0)).min(1.0)
+}
+
 /// Small spheres right above a cell.
 pub(crate) fn of_small_spheres(
     extent: &Extent,

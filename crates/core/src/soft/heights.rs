@@ -6,6 +6,7 @@
 use glam::{DVec2, DVec3};
 
 use super::line::{Candidate, Span, spans};
+use super::seam::Seam;
 use crate::model::camera::Projection;
 
 /// A height, and whether something begins or ends there that widens with the square root of the distance from it.
@@ -13,12 +14,26 @@ use crate::model::camera::Projection;
 pub(crate) struct Height {
     pub(crate) v: f64,
     pub(crate) is_turn: bool,
+    /// True if a penumbra crosses a side there. Its edge may have come from below, or go there.
+    pub(crate) is_penumbra: bool,
 }
 
 impl Height {
     /// One at which something crosses a side of the cell.
     pub(crate) fn crossing(v: f64) -> Self {
-        Self { v, is_turn: false }
+        Self {
+            v,
+            is_turn: false,
+            is_penumbra: false,
+        }
+    }
+
+    /// One at which an edge of a penumbra crosses a side of the cell.
+    pub(crate) fn of_penumbra(v: f64) -> Self {
+        Self {
+            is_penumbra: true,
+            ..Self::crossing(v)
+        }
     }
 }
 
@@ -87,22 +102,10 @@ fn contour(candidate: &Candidate, radius: f64, projection: Projection) -> Circle
     }
 }
 
-/// The circle in which two spheres meet, if they do.
-fn seam(one: &Candidate, other: &Candidate) -> Option<Circle> {
-    let between = other.center - one.center;
-    let distance = between.length();
-    let along =
-        0.5 * (distance + (one.radius - other.radius) * (one.radius + other.radius) / distance);
-    let radius_sq = (one.radius - along) * (one.radius + along);
-    let normal = between / distance;
-    (radius_sq > 0.0 && normal.is_finite())
-        .then(|| Circle::new(one.center + normal * along, normal, radius_sq))
-}
-
 /// Finds these heights within those of a cell, from its lowest to its highest. Calls `visit` with what is seen along the cell's
 /// left and right side, and with more heights to add.
 pub(crate) fn heights(
-    candidates: &[Candidate],
+    (candidates, seams): (&[Candidate], &[Seam]),
     (u, v): ([f64; 2], [f64; 2]),
     projection: Projection,
     (ends, found): (&mut Vec<f64>, &mut Vec<Span>),
@@ -110,34 +113,37 @@ pub(crate) fn heights(
 ) -> Vec<Height> {
     let mut heights = v.map(Height::crossing).to_vec();
     let turned: Vec<Candidate> = candidates.iter().map(Candidate::transposed).collect();
+    let turned_seams: Vec<Seam> = seams.iter().map(Seam::transposed).collect();
     for side in u {
-        spans(&turned, v, side, projection, ends, found);
+        spans((&turned, &turned_seams), v, side, projection, ends, found);
         heights.extend(found.iter().map(|span| Height::crossing(span.end)));
         for span in &*found {
             visit(side, span, &mut heights);
         }
     }
-    for (place, candidate) in candidates.iter().enumerate() {
+    let contours = candidates.iter().flat_map(|candidate| {
         let radii = [Some(candidate.radius), candidate.inner];
-        let contours = radii.into_iter().flatten();
-        let contours = contours.map(|radius| contour(candidate, radius, projection));
-        let seams = candidates[..place]
-            .iter()
-            .filter_map(|other| seam(candidate, other));
-        for circle in contours.chain(seams) {
-            let points = circle.extremes(projection).into_iter().flatten();
-            let inside = points.filter(|point| (u[0]..=u[1]).contains(&point.x));
-            heights.extend(inside.map(|point| Height {
-                v: point.y,
-                is_turn: true,
-            }));
-        }
+        let radii = radii.into_iter().flatten();
+        radii.map(|radius| contour(candidate, radius, projection))
+    });
+    let of_seams = seams
+        .iter()
+        .map(|seam| Circle::new(seam.center, seam.normal, seam.radius_sq));
+    for circle in contours.chain(of_seams) {
+        let points = circle.extremes(projection).into_iter().flatten();
+        let inside = points.filter(|point| (u[0]..=u[1]).contains(&point.x));
+        heights.extend(inside.map(|point| Height {
+            v: point.y,
+            is_turn: true,
+            is_penumbra: false,
+        }));
     }
     heights.retain(|height| (v[0]..=v[1]).contains(&height.v));
     heights.sort_unstable_by(|one, other| one.v.total_cmp(&other.v));
     heights.dedup_by(|later, height| {
         let is_same = later.v == height.v;
         height.is_turn |= is_same && later.is_turn;
+        height.is_penumbra |= is_same && later.is_penumbra;
         is_same
     });
     heights

@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
+use super::seam::Seam;
 use crate::hit::ball::Ball;
 use crate::model::camera::Projection;
 
@@ -14,7 +15,7 @@ pub(crate) struct Candidate {
     pub(crate) center: DVec3,
     pub(crate) radius: f64,
     /// The squared distance of the center from the eye less the squared radius.
-    outside: f64,
+    pub(super) outside: f64,
     /// The radius of the sphere that a ray has to meet to miss the outline, if there is one.
     pub(crate) inner: Option<f64>,
 }
@@ -27,9 +28,6 @@ pub(crate) struct Span {
     /// The place of the candidate that is seen there with light; none where light is known to be none.
     pub(crate) seen: Option<usize>,
 }
-
-/// Divisions that find where two spheres change places.
-const BISECTIONS: u32 = 40;
 
 impl Candidate {
     pub(crate) fn new(
@@ -208,9 +206,9 @@ fn first(
     ))
 }
 
-/// Finds what is seen along the line at the height `v` from one place to another.
+/// Finds what is seen along the line at the height `v` from one place to another: it changes only at contours and at seams.
 pub(crate) fn spans(
-    candidates: &[Candidate],
+    (candidates, seams): (&[Candidate], &[Seam]),
     [from, to]: [f64; 2],
     v: f64,
     projection: Projection,
@@ -229,56 +227,24 @@ pub(crate) fn spans(
             candidate.add_ends(v, cut, projection, ends);
         }
     }
+    for seam in seams {
+        seam.add_ends(v, projection, ends);
+    }
     ends.retain(|&end| end > from && end < to);
     ends.push(to);
     ends.sort_unstable_by(f64::total_cmp);
     spans.clear();
     let mut begin = from;
     for &end in &*ends {
-        if end > begin {
-            between(candidates, [begin, end], v, projection, spans);
-            begin = end;
+        if end <= begin {
+            continue;
         }
-    }
-}
-
-/// Finds what is seen between two places where nothing begins and nothing ends but where spheres meet.
-fn between(
-    candidates: &[Candidate],
-    [begin, end]: [f64; 2],
-    v: f64,
-    projection: Projection,
-    spans: &mut Vec<Span>,
-) {
-    let at = |u: f64| first(candidates, u, v, projection);
-    let inside = 1e-6 * (end - begin);
-    let places = [begin + inside, 0.5 * (begin + end), end - inside];
-    let mut start = begin;
-    let mut seen = places.map(at);
-    for half in 0..2 {
-        if seen[half] != seen[half + 1] {
-            let (mut low, mut high) = (places[half], places[half + 1]);
-            for _ in 0..BISECTIONS {
-                let middle = 0.5 * (low + high);
-                if at(middle) == seen[half] {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            push(spans, start, high, seen[half]);
-            start = high;
-            // A third one may be seen in between.
-            seen[half] = seen[half + 1];
+        let seen = first(candidates, 0.5 * (begin + end), v, projection);
+        let seen = seen.and_then(|(place, has_light)| has_light.then_some(place));
+        match spans.last_mut() {
+            Some(last) if last.seen == seen => last.end = end,
+            _ => spans.push(Span { begin, end, seen }),
         }
+        begin = end;
     }
-    push(spans, start, end, seen[2]);
-}
-
-fn push(spans: &mut Vec<Span>, begin: f64, end: f64, seen: Option<(usize, bool)>) {
-    spans.push(Span {
-        begin,
-        end,
-        seen: seen.and_then(|(place, has_light)| has_light.then_some(place)),
-    });
 }

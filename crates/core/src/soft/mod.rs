@@ -25,6 +25,7 @@ mod of_sun;
 pub(crate) mod picture;
 mod piece;
 mod point;
+mod seam;
 mod sky;
 mod strips;
 mod sun;

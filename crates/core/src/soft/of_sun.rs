@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DVec2};
 
-use super::cell::{Cell, Contents, Light};
-use super::doubt::{Extent, of_bumps, of_highlight, of_penumbra, of_terminator};
+use super::cell::{Along, Cell, Contents, Light};
+use super::doubt::{Extent, of_bumps, of_highlight, of_penumbra, of_speck, of_terminator};
 use super::edges::{Edge, KNOTS, add_breaks};
 use super::light::sun_light;
 use super::line::Candidate;
@@ -16,28 +16,28 @@ use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::world::World;
-use crate::numeric::jacobi::JacobiRule;
 
-/// The nodes on a part of a curve.
-const NODES: usize = 3;
+/// Gauss's rule with 3 nodes from −1 to 1: nodes, their weights, and those in Kronrod's with 7.
+const GAUSS: [[f64; 3]; 3] = [
+    [-0.774_596_669_241_483_4, 5.0 / 9.0, 0.268_488_089_868_333_4],
+    [0.0, 8.0 / 9.0, 0.450_916_538_658_474_14],
+    [0.774_596_669_241_483_4, 5.0 / 9.0, 0.268_488_089_868_333_4],
+];
+
+/// The other nodes of Kronrod's rule.
+const KRONROD: [[f64; 2]; 4] = [
+    [-0.960_491_268_708_020_3, 0.104_656_226_026_467_27],
+    [-0.434_243_749_346_802_6, 0.401_397_414_775_962_2],
+    [0.434_243_749_346_802_6, 0.401_397_414_775_962_2],
+    [0.960_491_268_708_020_3, 0.104_656_226_026_467_27],
+];
 
 /// What a thread keeps for suns.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct SunMemory {
-    rule: JacobiRule<NODES>,
     /// For each candidate of a cell.
     edges: Vec<Vec<Edge>>,
     breaks: Vec<f64>,
-}
-
-impl Default for SunMemory {
-    fn default() -> Self {
-        Self {
-            rule: JacobiRule::new(0.0),
-            edges: Vec::new(),
-            breaks: Vec::new(),
-        }
-    }
 }
 
 /// The light of a sun in one pixel, in the camera's frame.
@@ -61,6 +61,9 @@ pub(crate) fn strongest_highlight(world: &World) -> f64 {
 
 /// Half of a penumbra's width, in parts of the size of a cell, below which its edges are looked for.
 const NARROW: f64 = 3.0;
+
+/// The points of a curve are no further from its middle than so many times its ends, and the knots between.
+const REACH: f64 = 1.25;
 
 /// The claim of a part of a curve, in parts of the second difference of its nodes. Not tuned.
 const OF_BEND: f64 = 0.03;
@@ -169,7 +172,7 @@ impl Light for OfSun<'_> {
             sphere: candidate.sphere,
         };
         let shading = self.shading(candidate);
-        let mut doubt = 0.0_f64;
+        let (mut doubt, mut missed) = (0.0_f64, 0.0_f64);
         let mut is_narrow = false;
         for edge in &self.memory.edges[number] {
             match edge {
@@ -182,11 +185,14 @@ impl Light for OfSun<'_> {
                     let height = edge.height(&middle, &self.sun.disc);
                     is_narrow |= height.wide < NARROW * extent.around;
                     doubt = doubt.max(of_penumbra(&height, *radius, extent.around));
+                    missed = missed.max(of_speck(&height, *radius, extent.around));
                 }
             }
         }
         if is_narrow {
-            Contents::Edges
+            Contents::Edges {
+                doubt: missed * self.brightest(),
+            }
         } else {
             Contents::Smooth {
                 doubt: doubt * self.brightest(),
@@ -200,14 +206,27 @@ impl Light for OfSun<'_> {
         curve: &Curve,
         number: usize,
         breaks: &mut Vec<f64>,
-    ) {
+    ) -> bool {
         let shading = self.shading(candidate);
         let disc = self.sun.disc;
         let knots: [SurfacePoint; KNOTS] = std::array::from_fn(|index| {
             let at = curve.at(index as f64 / (KNOTS - 1) as f64);
             self.place(candidate, &shading, at)
         });
+        let middle = knots[KNOTS / 2];
+        let reach = |knot: &SurfacePoint| (knot.position - middle.position).length();
+        // Light turns along a curve by less than its chord is long.
+        let reach = REACH * knots.iter().map(reach).fold(0.0, f64::max);
         for edge in &self.memory.edges[number] {
+            if matches!(edge, Edge::Sphere { .. }) {
+                let height = edge.height(&middle, &disc);
+                if height.inner < -reach {
+                    return false;
+                }
+                if height.outer > reach {
+                    continue;
+                }
+            }
             let heights = knots.map(|place| edge.height(&place, &disc));
             add_breaks(
                 &heights,
@@ -215,36 +234,60 @@ impl Light for OfSun<'_> {
                 breaks,
             );
         }
+        true
     }
 
-    fn along(&mut self, candidate: &Candidate, curve: &Curve, number: usize) -> (Color, f64) {
+    fn along(&mut self, candidate: &Candidate, curve: &Curve, number: usize, limit: f64) -> Along {
         let shading = self.shading(candidate);
         let mut breaks = std::mem::take(&mut self.memory.breaks);
         breaks.clear();
         breaks.push(0.0);
-        self.add_breaks(candidate, curve, number, &mut breaks);
+        let is_lit = self.add_breaks(candidate, curve, number, &mut breaks);
+        if !is_lit {
+            self.memory.breaks = breaks;
+            return Along::default();
+        }
         breaks.push(1.0);
         breaks.sort_unstable_by(f64::total_cmp);
-        let (mut sum, mut error) = (Color::ZERO, 0.0);
-        let rule = self.memory.rule;
+        let mut along = Along {
+            breaks: breaks.len(),
+            ..Along::default()
+        };
         for ends in breaks.windows(2) {
-            let [begin, length] = [ends[0], ends[1] - ends[0]];
+            let length = ends[1] - ends[0];
             if length <= 0.0 {
                 continue;
             }
-            let mut of_nodes = [Color::ZERO; NODES];
-            let nodes = rule.nodes.iter().zip(rule.weights);
-            for ((node, weight), light) in nodes.zip(&mut of_nodes) {
-                let at = begin + length * node;
-                let place = self.place(candidate, &shading, curve.at(at));
-                *light = self.light(&place, number);
-                sum += *light * (weight * length * curve.along.at(at).1);
-            }
+            let at = |node: f64| ends[0] + length * (0.5 + 0.5 * node);
+            let mut light_at = |node: f64| {
+                let place = self.place(candidate, &shading, curve.at(at(node)));
+                self.light(&place, number)
+            };
+            let weight =
+                |node: f64, weight: f64| 0.5 * weight * length * curve.along.at(at(node)).1;
+            let of_nodes = GAUSS.map(|[node, ..]| light_at(node));
+            let nodes = || GAUSS.iter().zip(of_nodes);
+            let rough =
+                nodes().map(|([node, of_gauss, _], light)| light * weight(*node, *of_gauss));
+            let rough: Color = rough.sum();
             let bend = of_nodes[0] - 2.0 * of_nodes[1] + of_nodes[2];
-            let part = curve.along.at(ends[1]).0 - curve.along.at(begin).0;
-            error += bend.abs().max_element() * OF_BEND * part;
+            let bend = bend.abs().max_element() * OF_BEND;
+            let part = curve.along.at(ends[1]).0 - curve.along.at(ends[0]).0;
+            if bend <= limit {
+                along.integral += rough;
+                along.error += bend * part;
+                continue;
+            }
+            let known =
+                nodes().map(|([node, _, of_kronrod], light)| light * weight(*node, *of_kronrod));
+            let mut fine: Color = known.sum();
+            for [node, of_kronrod] in KRONROD {
+                fine += light_at(node) * weight(node, of_kronrod);
+            }
+            along.integral += fine;
+            along.error += (fine - rough).abs().max_element();
         }
         self.memory.breaks = breaks;
-        (sum, error)
+        along
     }
 }
