@@ -23,6 +23,8 @@ const RETRIES: u32 = 4;
 /// The largest number of lines in one direction; and the number of changes after which changes are located ten times
 /// less precisely: at the ends of shadows, grazing light on distant balls alternates quickly.
 const BUDGET: u32 = 6_000;
+/// The largest number of lines under soft light.
+const SOFT_BUDGET: u32 = 1_500;
 const PATIENCE: u32 = 1_000;
 /// An obviously large error, for work that was not finished.
 const UNDONE: f64 = 1e-3;
@@ -88,6 +90,14 @@ pub(crate) fn integral(patch: &Patch<'_>, seeds: &Seeds, way: Way) -> Found {
 }
 
 impl<'patch> Across<'patch> {
+    fn is_over_budget(&self) -> bool {
+        let most = match self.patch.stage.softness.is_any() {
+            true => SOFT_BUDGET,
+            false => BUDGET,
+        };
+        self.lines.get() > most
+    }
+
     fn close(&self) -> f64 {
         let impatience = 10_f64.powi((self.lines.get() / PATIENCE) as i32);
         let close = CLOSE.max(CLOSE_SHARE * self.patch.goal);
@@ -111,7 +121,7 @@ impl<'patch> Across<'patch> {
 
     fn structure(&self, t: f64) -> Vec<Signature> {
         // Out of budget: as if nothing changed any more.
-        if self.lines.get() > BUDGET {
+        if self.is_over_budget() {
             return Vec::new();
         }
         let line = self.line(t);
@@ -154,7 +164,7 @@ impl<'patch> Across<'patch> {
             for pair in cuts.windows(2) {
                 sum.add(self.between(pair[0], pair[1], &peaks, &mut samples));
             }
-            let over_budget = self.lines.get() > BUDGET;
+            let over_budget = self.is_over_budget();
             if samples.len() == known || attempt == RETRIES || over_budget {
                 if samples.len() != known {
                     sum.error += sum.cautious;
@@ -227,7 +237,7 @@ impl<'patch> Across<'patch> {
         let mut surprise = None;
         let mut unsure: f64 = 0.0;
         let mut light = |t: f64| -> DVec4 {
-            if self.lines.get() > BUDGET {
+            if self.is_over_budget() {
                 return DVec4::ZERO;
             }
             let line = self.line(t);

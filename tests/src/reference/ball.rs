@@ -123,17 +123,20 @@ impl Ball {
         (point - self.center) / self.radius
     }
 
+    /// |center − point|² − radius²; for a large ball near the viewpoint without the cancellation of their large parts.
+    pub(crate) fn power_from(&self, point: DVec3) -> f64 {
+        if point.length_squared() < self.radius * self.radius {
+            self.power + point.dot(point - 2.0 * self.center)
+        } else {
+            (self.center - point).length_squared() - self.radius * self.radius
+        }
+    }
+
     /// The square of half the chord of a ray from `point` (relative to the viewpoint) toward a light, negative if the
     /// ray misses the ball; and whether the chord lies ahead.
     pub(crate) fn shadow(&self, point: DVec3, toward: DVec3) -> (f64, bool) {
         let center = self.center - point;
-        // |center − point|² − radius²; for a large ball near the viewpoint without the
-        // cancellation of their large parts.
-        let power = if point.length_squared() < self.radius * self.radius {
-            self.power + point.dot(point - 2.0 * self.center)
-        } else {
-            center.length_squared() - self.radius * self.radius
-        };
+        let power = self.power_from(point);
         let chord_sq = chord_sq(center, self.radius, power, toward);
         (chord_sq, power < 0.0 || center.dot(toward) > 0.0)
     }

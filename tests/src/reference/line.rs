@@ -291,7 +291,9 @@ impl Line<'_> {
                 .collect();
             zeros(&nodes, &values, &mut |u| value(&spot(u), u), &mut found);
         };
-        for (lamp, casters) in self.patch.stage.lamps.iter().zip(&candidate.casters) {
+        let suns = &self.patch.stage.softness.suns;
+        for (number, lamp) in self.patch.stage.lamps.iter().enumerate() {
+            let casters = &candidate.casters[number];
             search(&|spot, _| spot.normal.dot(lamp.seen_from(spot.point).0));
             if lamp.ahead(candidate.ball.center).is_some() {
                 search(&|spot, _| lamp.ahead(spot.point).unwrap_or(1.0));
@@ -302,6 +304,26 @@ impl Line<'_> {
                     let half = self.patch.half_way(toward, self.at(place(u)));
                     spot.normal.dot(half)
                 });
+            }
+            if let Some(sun) = &suns[number] {
+                let sine = libm::sin(sun.half);
+                for height in [-sine, sine] {
+                    search(&|spot, _| spot.normal.dot(sun.toward) - height);
+                }
+                for &caster in casters.iter().filter(|_| sun.has_borders(casters)) {
+                    let caster = &self.patch.stage.balls[caster];
+                    for side in [1.0, -1.0] {
+                        search(&|spot, _| {
+                            let [apart, angle] = sun.beside(caster, spot.point);
+                            if side > 0.0 {
+                                apart - angle - sun.half
+                            } else {
+                                apart - (angle - sun.half).abs()
+                            }
+                        });
+                    }
+                }
+                continue;
             }
             let facing = |spot: &Spot| spot.normal.dot(lamp.seen_from(spot.point).0);
             if spots.iter().all(|spot| facing(spot) < -0.3) {

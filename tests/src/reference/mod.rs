@@ -19,6 +19,7 @@ mod noise;
 mod patch;
 mod quadrature;
 mod seeds;
+mod soft;
 mod strata;
 
 use glam::{DVec2, DVec4};
@@ -27,12 +28,17 @@ use marbles_core::{View, World};
 use across::Way;
 use patch::{Patch, Stage};
 use seeds::Seeds;
+pub use soft::Center;
 
 /// The difference between both directions above which a pixel is divided into quarters.
 const TOLERANCE: f64 = 1e-10;
 /// The largest number of times that quarters are divided again, and the largest number of lines per pixel.
 const DEPTH: u32 = 5;
 const BUDGET: u32 = 40_000;
+/// The same under soft light, whose lines take much longer.
+const SOFT_TOLERANCE: f64 = 1e-6;
+const SOFT_DEPTH: u32 = 2;
+const SOFT_BUDGET: u32 = 3_000;
 /// The rounding error of lines and edges if everything else agrees.
 const ROUNDING: f64 = 1e-12;
 
@@ -66,23 +72,40 @@ impl<'world> Reference<'world> {
 
     /// The exact value of a pixel.
     pub fn pixel(&self, col: u32, row: u32) -> Truth {
-        self.pixel_to(col, row, TOLERANCE)
+        self.pixel_to(col, row, self.finest())
+    }
+
+    /// The smallest error that is aimed at.
+    fn finest(&self) -> f64 {
+        match self.stage.softness.is_any() {
+            true => SOFT_TOLERANCE,
+            false => TOLERANCE,
+        }
+    }
+
+    /// The largest number of times that quarters are divided again, and the largest number of lines.
+    fn most(&self) -> (u32, u32) {
+        match self.stage.softness.is_any() {
+            true => (SOFT_DEPTH, SOFT_BUDGET),
+            false => (DEPTH, BUDGET),
+        }
     }
 
     /// The value of a pixel with at most about this error.
     pub fn pixel_to(&self, col: u32, row: u32, tolerance: f64) -> Truth {
-        let tolerance = tolerance.max(TOLERANCE);
+        let tolerance = tolerance.max(self.finest());
         let patch = Patch::of_pixel(&self.stage, col, row, tolerance);
-        let mut budget = BUDGET;
-        let mut truth = patch_truth(&patch, DEPTH, tolerance, &mut budget);
+        let (depth, mut budget) = self.most();
+        let mut truth = patch_truth(&patch, depth, tolerance, &mut budget);
         truth.error += ROUNDING + patch.noise;
         truth
     }
 
     /// The value as the sum of four quarters: details that one misses are hardly missed by both.
     pub fn pixel_by_quarters(&self, col: u32, row: u32) -> Truth {
-        let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
-        let mut budget = BUDGET;
+        let tolerance = self.finest();
+        let patch = Patch::of_pixel(&self.stage, col, row, tolerance);
+        let (depth, mut budget) = self.most();
         let mut sum = Truth {
             value: DVec4::ZERO,
             error: 4.0 * (ROUNDING + patch.noise),
@@ -90,7 +113,7 @@ impl<'world> Reference<'world> {
             lines: 0,
         };
         for side in SIDES {
-            let quarter = patch_truth(&patch.quarter(side), DEPTH, TOLERANCE, &mut budget);
+            let quarter = patch_truth(&patch.quarter(side), depth, tolerance, &mut budget);
             sum.value += quarter.value;
             sum.error += quarter.error;
             sum.has_edge |= quarter.has_edge;

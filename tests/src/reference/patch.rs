@@ -5,12 +5,16 @@ use marbles_core::{OutlineWidth, View, World};
 
 use super::ball::Ball;
 use super::lamp::Lamp;
+use super::soft::{Softness, Sun};
 
 /// Relative slack in the search for spheres: far above rounding.
 const SLACK: f64 = 1e-7;
 
 /// The relative rounding error of a direction or a point: about eight operations.
 const ROUNDING: f64 = 8.0 * 0.5 * f64::EPSILON;
+
+/// The allowed error of soft light at a point, as a fraction of the patch's goal.
+const FINE_SHARE: f64 = 1e-4;
 
 /// A world from a viewpoint.
 pub(crate) struct Stage<'world> {
@@ -20,6 +24,7 @@ pub(crate) struct Stage<'world> {
     pub(crate) forward: Option<DVec3>,
     pub(crate) balls: Vec<Ball>,
     pub(crate) lamps: Vec<Lamp>,
+    pub(crate) softness: Softness,
 }
 
 impl<'world> Stage<'world> {
@@ -42,6 +47,7 @@ impl<'world> Stage<'world> {
                 .iter()
                 .map(|light| Lamp::new(light, eye))
                 .collect(),
+            softness: Softness::of(world),
         }
     }
 }
@@ -107,6 +113,8 @@ pub(crate) struct Patch<'stage> {
     pub(crate) noise: f64,
     /// The allowed error of the integral. Lines and their parts get fractions of it.
     pub(crate) goal: f64,
+    /// The allowed error of soft light at a point.
+    pub(crate) fine: f64,
     /// The spheres that may be visible in it.
     pub(crate) candidates: Vec<Candidate>,
 }
@@ -118,6 +126,8 @@ pub(crate) struct Candidate {
     /// The smaller ball that rays miss if they show the outline of the sphere.
     pub(crate) inside: Option<Ball>,
     pub(crate) casters: Vec<Vec<usize>>,
+    /// The spheres that may hide the sky.
+    pub(crate) sky_casters: Vec<usize>,
 }
 
 impl Candidate {
@@ -195,17 +205,24 @@ impl<'stage> Patch<'stage> {
             high,
             noise: 0.0,
             goal,
+            fine: FINE_SHARE * goal,
             candidates: Vec::new(),
         };
         let cone = patch.beam();
+        let world_has_shadows = stage.world.shadows;
         for (sphere, ball) in stage.balls.iter().enumerate() {
             if cone.may_see(ball) {
                 let casters = patch.casters(&cone, sphere);
+                let sky_casters = match stage.softness.sky {
+                    Some(_) if world_has_shadows => patch.others(sphere).collect(),
+                    _ => Vec::new(),
+                };
                 patch.candidates.push(Candidate {
                     sphere,
                     ball: *ball,
                     inside: stage.inside_outline(sphere),
                     casters,
+                    sky_casters,
                 });
             }
         }
@@ -282,21 +299,31 @@ impl<'stage> Patch<'stage> {
                 .map(|(index, _)| index)
                 .collect()
         };
-        let of_near = || {
-            // Anything may lie between.
-            let others = self.stage.balls.iter().enumerate();
-            others
-                .filter(|(index, _)| *index != sphere)
-                .filter(|(_, caster)| caster.center != ball.center || caster.radius != ball.radius)
-                .map(|(index, _)| index)
-                .collect()
+        let of_sun = |sun: &Sun| {
+            let radius = 0.5 * (end - start).length() + around;
+            let middle = 0.5 * (start + end);
+            let may_hide =
+                |caster: &usize| sun.may_be_hidden(&self.stage.balls[*caster], middle, radius);
+            self.others(sphere).filter(may_hide).collect()
         };
-        let lamps = self.stage.lamps.iter();
+        let lamps = self.stage.lamps.iter().zip(&self.stage.softness.suns);
         let casters = lamps.map(|lamp| match lamp {
-            Lamp::Far(toward) => of_light(*toward),
-            Lamp::Near { .. } => of_near(),
+            (_, Some(sun)) => of_sun(sun),
+            (Lamp::Far(toward), None) => of_light(*toward),
+            // Anything may lie between.
+            (Lamp::Near { .. }, None) => self.others(sphere).collect(),
         });
         casters.collect()
+    }
+
+    /// All spheres that do not coincide with one.
+    fn others(&self, sphere: usize) -> impl Iterator<Item = usize> {
+        let ball = &self.stage.balls[sphere];
+        let others = self.stage.balls.iter().enumerate();
+        others
+            .filter(move |(index, _)| *index != sphere)
+            .filter(|(_, other)| other.center != ball.center || other.radius != ball.radius)
+            .map(|(index, _)| index)
     }
 }
 

@@ -13,6 +13,9 @@ use super::scenes::{
     highlights, long_lenses, many_lights, ordinary, overlapping_crowds, rough, seams, shutters,
     slivers, surface_bumps, terminator_at_rim, touching, triple_points, wide_lenses,
 };
+use super::soft::{
+    soft_bumps, soft_contacts, soft_crowds, soft_horizons, soft_outlines, soft_skies, soft_suns,
+};
 use super::together::together;
 use marbles_tests::numbers::Numbers;
 
@@ -236,5 +239,44 @@ pub(super) const FAMILIES: [Family; 41] = [
         name: "colors",
         draft: Maker::Random(colored),
         rarity: 1,
+    },
+];
+
+/// Families under soft light, which takes long: they take part only if they are asked for.
+pub(super) const SOFT_FAMILIES: [Family; 7] = [
+    Family {
+        name: "soft suns",
+        draft: Maker::Random(soft_suns),
+        rarity: 1,
+    },
+    Family {
+        name: "soft skies",
+        draft: Maker::Random(soft_skies),
+        rarity: 1,
+    },
+    Family {
+        name: "soft contacts",
+        draft: Maker::Random(soft_contacts),
+        rarity: 1,
+    },
+    Family {
+        name: "soft horizons",
+        draft: Maker::Random(soft_horizons),
+        rarity: 1,
+    },
+    Family {
+        name: "soft outlines",
+        draft: Maker::Random(soft_outlines),
+        rarity: 1,
+    },
+    Family {
+        name: "soft bumps",
+        draft: Maker::Random(soft_bumps),
+        rarity: 5,
+    },
+    Family {
+        name: "soft crowds",
+        draft: Maker::Random(soft_crowds),
+        rarity: 5,
     },
 ];

@@ -3,6 +3,9 @@
 /// The tolerances of a hunt that names no others.
 const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
+/// Those for soft light.
+const SOFT_TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
+
 /// The options of a hunt.
 #[derive(Clone, Debug)]
 pub(super) struct Options {
@@ -56,6 +59,13 @@ impl Options {
             }
         }
         Ok(options)
+    }
+
+    /// Takes the tolerances for soft light if no others are named.
+    pub(super) fn limit_to_soft(&mut self) {
+        if self.unusual_tolerances().is_none() {
+            self.tolerances = SOFT_TOLERANCES.to_vec();
+        }
     }
 
     /// The part of the page that these options write: each list of tolerances has one of its own.

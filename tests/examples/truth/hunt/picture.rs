@@ -1,6 +1,7 @@
 //! Pictures of the light of a scene, in the unit of the reference pictures.
 
 use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
 
 use glam::{DVec3, DVec4};
 use marbles_core::{Image, LightPart, Method, Renderer, Settings, View, Work, World};
@@ -27,7 +28,14 @@ pub(super) struct Picture {
 
 impl Picture {
     /// The picture by a method whose tolerance is in the unit of reference pictures.
-    pub(super) fn of(scene: &Scene, view: &View, mode: Mode, method: Method) -> Option<Self> {
+    /// `None` if it takes longer than `patience`.
+    pub(super) fn of(
+        scene: &Scene,
+        view: &View,
+        mode: Mode,
+        method: Method,
+        patience: Option<Duration>,
+    ) -> Option<Self> {
         let settings = Settings {
             method: match method {
                 Method::Tolerance(tolerance) => Method::Tolerance(tolerance * mode.light),
@@ -35,7 +43,11 @@ impl Picture {
             },
             alpha: mode.alpha,
         };
-        let go = |_| ControlFlow::Continue(());
+        let start = Instant::now();
+        let go = |_| match patience {
+            Some(patience) if start.elapsed() > patience => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
         let mut renderer = Renderer::new(scene.world());
         if let Some(part) = mode.part(scene.world()) {
             renderer = renderer.under(part);

@@ -11,6 +11,11 @@ use marbles_tests::numbers::Numbers;
 /// The factor of the finer picture that finds suspects, and its tolerance.
 const FINER: u32 = 3;
 const FINEST: f64 = 1e-6;
+/// Its tolerance under soft light, which takes long.
+const SOFT_FINEST: f64 = 1e-5;
+
+/// The number of suspect pixels of a scene under soft light that the integrator judges at each tolerance.
+const SOFT_JUDGED: u32 = 16;
 
 /// The difference from the finer picture, in tolerances, from which a pixel is suspect. The remaining tenth is more
 /// than the claims of both pictures.
@@ -42,7 +47,13 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
         return random::judge(subject, tolerances);
     }
     let mut found = Found::new(tolerances);
-    let Some(finer) = subject.finer_picture(FINER, FINEST) else {
+    let finest = if subject.is_soft() {
+        SOFT_FINEST
+    } else {
+        FINEST
+    };
+    let Some(finer) = subject.finer_picture(FINER, finest) else {
+        found.skipped += u64::from(subject.is_soft());
         return found;
     };
     let sampled = Sampled::of(subject);
@@ -50,6 +61,7 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
         let Some(picture) = subject.picture(tolerance) else {
             continue;
         };
+        let mut left = SOFT_JUDGED;
         for place in picture.places() {
             let pixel = Pixel::of(&picture, &finer, place, tolerance);
             found.pixels += 1;
@@ -58,7 +70,12 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
             if pixel.is_confessed && found.unmet.is_none() {
                 found.unmet = Some(pixel.broken(pixel.apart));
             }
-            if pixel.is_suspect() || sampled.as_ref().is_some_and(|it| pixel.is_unlike(it)) {
+            let is_suspect = pixel.is_suspect(subject.is_soft())
+                || sampled.as_ref().is_some_and(|it| pixel.is_unlike(it));
+            if is_suspect && subject.is_soft() && left == 0 && !pixel.is_surely_off() {
+                found.unjudged += 1;
+            } else if is_suspect {
+                left = left.saturating_sub(1);
                 found.broken.extend(pixel.shortfall(subject));
             } else if pixel.has_false_claim() {
                 found.false_claims.push(pixel.broken(pixel.apart));
@@ -121,10 +138,15 @@ impl Pixel {
     }
 
     /// Returns whether the finer picture contradicts the pixel.
-    fn is_suspect(&self) -> bool {
-        let gave_up = self.uncertain > GIVEN_UP;
+    fn is_suspect(&self, is_soft: bool) -> bool {
+        let gave_up = is_soft || self.uncertain > GIVEN_UP;
         self.apart > SUSPECT * self.allowed()
             || gave_up && self.apart + self.uncertain > self.allowed()
+    }
+
+    /// Returns whether the finer picture contradicts the pixel by more than it claims.
+    fn is_surely_off(&self) -> bool {
+        self.apart - self.uncertain > self.allowed()
     }
 
     /// Returns whether samples contradict the pixel.
@@ -172,7 +194,7 @@ impl Pixel {
             return Some((apart / claimed, 1));
         }
         let mut chance = Numbers(claimed.to_bits() ^ u64::from(32 * self.place.1 + self.place.0));
-        if subject.is_slow() || chance.below(SHARE as usize) != 0 {
+        if subject.is_slow() || subject.is_soft() || chance.below(SHARE as usize) != 0 {
             return None;
         }
         let (error, uncertain) = subject.error_of(self.place(), self.value, claimed)?;

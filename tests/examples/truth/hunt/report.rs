@@ -19,6 +19,7 @@ pub(super) struct Report<'a> {
     /// The ratios of all families, for each tolerance.
     honesty: Vec<Honesty>,
     unjudged: u64,
+    skipped: u64,
     /// The number of pixels reported as over their tolerance, for each family.
     counts_given_up: Vec<(String, Vec<u64>)>,
 }
@@ -37,6 +38,7 @@ impl<'a> Report<'a> {
             given_up: format!("| given up, per million |{names}\n|---|{rules}\n"),
             honesty: vec![Honesty::default(); tolerances.len()],
             unjudged: 0,
+            skipped: 0,
             counts_given_up: Vec::new(),
         }
     }
@@ -44,6 +46,7 @@ impl<'a> Report<'a> {
     /// Adds the results of the scenes of a family.
     pub(super) fn add(&mut self, family: &str, scenes: u64, sum: &Found) {
         self.unjudged += sum.unjudged;
+        self.skipped += sum.skipped;
         // Writing to a string does not fail.
         let _ = writeln!(
             self.counts,
@@ -75,8 +78,15 @@ impl<'a> Report<'a> {
         if self.unjudged > 0 {
             let _ = writeln!(
                 text,
-                "\n{} pixels of fine bumps could not be judged.",
+                "\n{} pixels of fine bumps or under soft light could not be judged.",
                 self.unjudged
+            );
+        }
+        if self.skipped > 0 {
+            let _ = writeln!(
+                text,
+                "\n{} scenes were left out: their pictures take too long.",
+                self.skipped
             );
         }
         text
@@ -105,11 +115,12 @@ fn counts(tolerances: &[f64], sum: &Found) -> String {
 /// The line that a hunt prints after each family.
 pub(super) fn line(family: &str, scenes: u64, tolerances: &[f64], sum: &Found) -> String {
     format!(
-        "{family}: {scenes} scenes, {} pixels, fell short |{} given up {:?}, unjudged {}",
+        "{family}: {scenes} scenes, {} pixels, fell short |{} given up {:?}, unjudged {}, skipped {}",
         sum.pixels,
         counts(tolerances, sum),
         sum.given_up,
-        sum.unjudged
+        sum.unjudged,
+        sum.skipped
     )
 }
 

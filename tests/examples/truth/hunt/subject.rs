@@ -1,6 +1,7 @@
 //! A scene of a hunt, and the true values of its pixels.
 
 use std::num::NonZeroU32;
+use std::time::Duration;
 
 use glam::DVec4;
 use marbles_core::{Method, View, World};
@@ -13,6 +14,9 @@ use super::{Broken, random};
 
 /// The rounding error of sums in the true value.
 const ROUNDING: f64 = 1e-13;
+
+/// The longest time for a picture under soft light.
+const PATIENCE: Duration = Duration::from_secs(90);
 
 /// A scene, an equivalent scene in units that suit the reference pictures, and one with many frames instead of one, if
 /// the shutter is open.
@@ -55,7 +59,7 @@ impl Subject {
     /// The picture by a method.
     pub(super) fn shown(&self, method: Method) -> Option<Picture> {
         let view = self.scene.view(self.frame()).ok()?;
-        Picture::of(&self.scene, &view, self.mode, method)
+        Picture::of(&self.scene, &view, self.mode, method, self.patience())
     }
 
     /// The reference picture with this many times as many columns and rows, at a tolerance.
@@ -79,12 +83,23 @@ impl Subject {
             light: 1.0,
             ..self.mode
         };
-        Picture::of(&self.plain, &view, mode, method)
+        Picture::of(&self.plain, &view, mode, method, self.patience())
     }
 
     /// Returns whether the true value of a pixel takes a large part of a second: with bumps, and over time.
     pub(super) fn is_slow(&self) -> bool {
         self.moments.is_some() || random::grains(&self.plain).next().is_some()
+    }
+
+    /// Returns whether a scene is under soft light, for which both the renderer and the integrator take long.
+    pub(super) fn is_soft(&self) -> bool {
+        let world = self.plain.world();
+        world.sky.is_some() || world.lights.iter().any(|light| light.sun().is_some())
+    }
+
+    /// The time after which a picture is given up.
+    fn patience(&self) -> Option<Duration> {
+        self.is_soft().then_some(PATIENCE)
     }
 
     /// The true value for [`Picture::value`], and its error, from an integrator for single moments.
@@ -179,11 +194,13 @@ impl Subject {
         Some((error(parts), uncertain))
     }
 
-    /// The mean of a million points of a pixel, and an estimate of its error: twice by how much a quarter of them differ.
+    /// The mean of a million points of a pixel, or of thousands under soft light, and an estimate of its error: twice by how much a quarter of them differ.
     /// The integrator takes minutes for pixels in which bumps, outlines and contours meet.
     fn points(&self, (col, row): (u32, u32)) -> Option<(DVec4, f64)> {
         const COUNTS: [u32; 2] = [500, 1000];
-        let [coarse, fine] = COUNTS.map(|count| {
+        const SOFT_COUNTS: [u32; 2] = [40, 80];
+        let counts = if self.is_soft() { SOFT_COUNTS } else { COUNTS };
+        let [coarse, fine] = counts.map(|count| {
             self.truth(0.0, |judge, _| Truth {
                 value: judge.midpoints(col, row, count),
                 error: 0.0,

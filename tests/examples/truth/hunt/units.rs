@@ -1,7 +1,14 @@
 //! Scene files in other units of light and of length.
 
 /// The words before light values, and before lengths.
-const LIGHT: [&str; 4] = ["intensity: ", "ambient: ", "background: ", "color: "];
+const LIGHT: [&str; 6] = [
+    "intensity: ",
+    "ambient: ",
+    "background: ",
+    "color: ",
+    "above: ",
+    "below: ",
+];
 const LENGTHS: [&str; 11] = [
     "center: ",
     "radius: ",
