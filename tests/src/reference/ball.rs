@@ -118,6 +118,20 @@ impl Ball {
         distance / length
     }
 
+    /// A hit of a parallel ray with a ball that is large beside its distance, where [`Ball::hit`] loses digits.
+    pub(crate) fn refined_hit(&self, direction: DVec3, t: f64) -> f64 {
+        let Some(forward) = self.forward else {
+            return t;
+        };
+        let is_large = direction.length_squared() < self.radius * self.radius;
+        if !is_large || self.begins_inside(direction) {
+            return t;
+        }
+        let power = self.power_from(direction);
+        let along = (self.center - direction).dot(forward);
+        power / (along + (along * along - power).max(0.0).sqrt())
+    }
+
     /// The outward normal at a point of the surface, given relative to the viewpoint.
     pub(crate) fn normal(&self, point: DVec3) -> DVec3 {
         (point - self.center) / self.radius

@@ -1,11 +1,10 @@
 //! The view along a ray: the sphere, the lights that reach it, and the reflected light.
 
 use glam::{DVec3, DVec4};
-use marbles_core::Highlight;
 
 use super::noise::bump;
 use super::patch::{Candidate, Patch};
-use super::soft::{SoftState, Sun};
+use super::soft::SoftState;
 
 /// The properties that may jump, or change sharply, from one ray to the next.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
@@ -106,20 +105,11 @@ impl Patch<'_> {
         let (mut scattered, mut mirrored) = (world.ambient, DVec3::ZERO);
         for (number, light) in world.lights.iter().enumerate() {
             if let Some(sun) = &self.stage.softness.suns[number] {
-                let casters = (candidate, &candidate.casters[number][..]);
-                let state = self.state(sun, casters, &spot);
+                let state = self.state(sun, (candidate, &candidate.casters[number]), &spot);
                 signature.soft = signature.soft.and(state);
                 let shine = self.shine(sun, material.highlight.as_ref(), &spot, direction);
-                if state.is_dark() {
-                    continue;
-                }
-                signature.shines |= u64::from(shine > 0.0) << number;
-                if is_asked {
-                    let seen = self.of_sun(sun, casters, &spot);
-                    let share = light.intensity() * seen.share();
-                    scattered += share * libm::pow(seen.whole, material.exponent);
-                    mirrored += share * shine;
-                }
+                let shines = shine > 0.0 && !state.is_dark();
+                signature.shines |= u64::from(shines) << number;
                 continue;
             }
             let lamp = &self.stage.lamps[number];
@@ -147,29 +137,11 @@ impl Patch<'_> {
                 }
             }
         }
-        if let (Some(sky), true) = (&self.stage.softness.sky, is_asked) {
-            let seen = self.of_sky(sky, candidate, &spot);
-            scattered += sky.below() * (seen.free - seen.above) + sky.above() * seen.above;
+        let mut light = albedo * scattered + mirrored;
+        if is_asked && self.stage.softness.is_any() {
+            light += self.soft_light(candidate, &spot, direction);
         }
-        (signature, (albedo * scattered + mirrored).extend(1.0))
-    }
-
-    /// The highlight of a whole sun: that of its middle, if this is above the surface.
-    fn shine(
-        &self,
-        sun: &Sun,
-        highlight: Option<&Highlight>,
-        spot: &Spot,
-        direction: DVec3,
-    ) -> f64 {
-        let Some(highlight) = highlight else {
-            return 0.0;
-        };
-        let cosine = spot.normal.dot(self.half_way(sun.toward, direction));
-        if cosine <= 0.0 || spot.normal.dot(sun.toward) <= 0.0 {
-            return 0.0;
-        }
-        highlight.strength * libm::pow(cosine, highlight.shininess)
+        (signature, light.extend(1.0))
     }
 
     fn is_shadowed(&self, candidate: &Candidate, light: usize, point: DVec3) -> bool {

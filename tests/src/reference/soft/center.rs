@@ -1,6 +1,6 @@
 //! The light of the point that is seen in the middle of a pixel.
 
-use glam::{DVec2, DVec4};
+use glam::{DVec2, DVec3};
 
 use super::point::Seen;
 use crate::reference::Reference;
@@ -10,11 +10,10 @@ use crate::reference::patch::{Candidate, Patch};
 /// The goal of a patch whose points are as precise as doubles allow.
 const GOAL: f64 = 1e-10;
 
-/// The light that is seen in the middle of a pixel.
+/// The light of suns and the sky in the middle of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Center {
-    /// Red, green and blue, and 1 if there is a sphere.
-    pub value: DVec4,
+    pub value: DVec3,
     /// The effect that rounding may have on soft light, in any program that computes with doubles.
     pub error: f64,
     /// Whether there is a sphere, and rounding cannot decide which one is seen.
@@ -24,13 +23,12 @@ pub struct Center {
 }
 
 impl Reference<'_> {
-    /// The light that is seen in the middle of a pixel.
+    /// The light of suns and the sky that the surface in the middle of a pixel reflects.
     pub fn center(&self, col: u32, row: u32) -> Center {
         let patch = Patch::of_pixel(&self.stage, col, row, GOAL);
         let direction = patch.direction(DVec2::ZERO);
-        let value = patch.look(direction, true).1;
         let mut center = Center {
-            value,
+            value: DVec3::ZERO,
             error: 0.0,
             is_known: false,
             is_partial: false,
@@ -42,9 +40,11 @@ impl Reference<'_> {
         if candidate.ball.begins_inside(direction) {
             return center;
         }
+        let t = candidate.ball.refined_hit(direction, t);
         let spot = patch.spot(candidate, direction, t);
         let ray = self.stage.forward.unwrap_or_else(|| direction.normalize());
         let slope = candidate.ball.normal(spot.point).dot(ray).abs();
+        center.value = patch.soft_light(candidate, &spot, direction);
         let (error, is_partial) = patch.soft_error(candidate, &spot);
         center.error = error / slope;
         center.is_known = !patch.is_near_edge(slope, index, t);

@@ -1,7 +1,7 @@
 //! The soft lights of a world, and what changes along a surface under them.
 
 use glam::DVec3;
-use marbles_core::{Sky, World};
+use marbles_core::{Highlight, Sky, World};
 
 use super::cap::{Cap, angle_between};
 use super::point::{Place, Seen};
@@ -121,7 +121,7 @@ impl Patch<'_> {
     }
 
     /// What is seen of a sun.
-    pub(crate) fn of_sun(
+    pub(super) fn of_sun(
         &self,
         sun: &Sun,
         (candidate, casters): (&Candidate, &[usize]),
@@ -133,11 +133,54 @@ impl Patch<'_> {
     }
 
     /// What is seen of the sky.
-    pub(crate) fn of_sky(&self, sky: &Sky, candidate: &Candidate, spot: &Spot) -> Seen {
+    pub(super) fn of_sky(&self, sky: &Sky, candidate: &Candidate, spot: &Spot) -> Seen {
         let place = self.place(candidate, spot);
         let caps = self.caps(&candidate.sky_casters, spot.point);
         let up = (sky.above() != sky.below()).then(|| sky.up());
         place.under_sky(up, caps, self.fine)
+    }
+
+    /// The light of all suns and the sky that a point reflects toward the eye, if it is seen in a direction.
+    pub(crate) fn soft_light(&self, candidate: &Candidate, spot: &Spot, direction: DVec3) -> DVec3 {
+        let world = self.stage.world;
+        let material = world.material(candidate.sphere);
+        let albedo = world.albedo(candidate.sphere);
+        let mut light = DVec3::ZERO;
+        for (number, sun) in self.stage.softness.suns.iter().enumerate() {
+            let Some(sun) = sun else { continue };
+            let casters = (candidate, &candidate.casters[number][..]);
+            if self.state(sun, casters, spot).is_dark() {
+                continue;
+            }
+            let seen = self.of_sun(sun, casters, spot);
+            let diffuse = albedo * libm::pow(seen.whole, material.exponent);
+            let shine = self.shine(sun, material.highlight.as_ref(), spot, direction);
+            let intensity = world.lights[number].intensity();
+            light += (diffuse + shine) * intensity * seen.share();
+        }
+        if let Some(sky) = &self.stage.softness.sky {
+            let seen = self.of_sky(sky, candidate, spot);
+            light += albedo * (sky.below() * (seen.free - seen.above) + sky.above() * seen.above);
+        }
+        light
+    }
+
+    /// The highlight of a whole sun: that of its middle, if this is above the surface.
+    pub(crate) fn shine(
+        &self,
+        sun: &Sun,
+        highlight: Option<&Highlight>,
+        spot: &Spot,
+        direction: DVec3,
+    ) -> f64 {
+        let Some(highlight) = highlight else {
+            return 0.0;
+        };
+        let cosine = spot.normal.dot(self.half_way(sun.toward, direction));
+        if cosine <= 0.0 || spot.normal.dot(sun.toward) <= 0.0 {
+            return 0.0;
+        }
+        highlight.strength * libm::pow(cosine, highlight.shininess)
     }
 
     /// The state of a sun at a point.
