@@ -41,6 +41,7 @@ mod shading;
 mod shutter;
 mod sidecar;
 mod soft_light;
+mod soft_light_pixels;
 mod soft_light_points;
 mod studio;
 mod tolerance;

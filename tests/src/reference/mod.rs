@@ -36,7 +36,7 @@ const TOLERANCE: f64 = 1e-10;
 const DEPTH: u32 = 5;
 const BUDGET: u32 = 40_000;
 /// The same under soft light, whose lines take much longer.
-const SOFT_TOLERANCE: f64 = 1e-6;
+const SOFT_TOLERANCE: f64 = 1e-5;
 const SOFT_DEPTH: u32 = 2;
 const SOFT_BUDGET: u32 = 3_000;
 /// The rounding error of lines and edges if everything else agrees.

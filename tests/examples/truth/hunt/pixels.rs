@@ -11,7 +11,8 @@ use marbles_tests::numbers::Numbers;
 /// The factor of the finer picture that finds suspects, and its tolerance.
 const FINER: u32 = 3;
 const FINEST: f64 = 1e-6;
-/// Its tolerance under soft light, which takes long.
+/// Its tolerance under soft light, which takes long: this part of the smallest tolerance, but not less than this.
+const SOFT_FINEST_OF_TOLERANCE: f64 = 0.1;
 const SOFT_FINEST: f64 = 1e-5;
 
 /// The number of suspect pixels of a scene under soft light that the integrator judges at each tolerance.
@@ -48,7 +49,8 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
     }
     let mut found = Found::new(tolerances);
     let finest = if subject.is_soft() {
-        SOFT_FINEST
+        let smallest = tolerances.iter().copied().fold(f64::INFINITY, f64::min);
+        (SOFT_FINEST_OF_TOLERANCE * smallest).max(SOFT_FINEST)
     } else {
         FINEST
     };

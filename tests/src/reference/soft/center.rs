@@ -13,6 +13,7 @@ const GOAL: f64 = 1e-10;
 /// The light of suns and the sky in the middle of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Center {
+    /// Red, green and blue.
     pub value: DVec3,
     /// The effect that rounding may have on soft light, in any program that computes with doubles.
     pub error: f64,
