@@ -306,22 +306,9 @@ impl Line<'_> {
                 });
             }
             if let Some(sun) = &suns[number] {
-                let sine = libm::sin(sun.half);
-                for height in [-sine, sine] {
-                    search(&|spot, _| spot.normal.dot(sun.toward) - height);
-                }
-                for &caster in casters.iter().filter(|_| sun.has_borders(casters)) {
-                    let caster = &self.patch.stage.balls[caster];
-                    for side in [1.0, -1.0] {
-                        search(&|spot, _| {
-                            let [apart, angle] = sun.beside(caster, spot.point);
-                            if side > 0.0 {
-                                apart - angle - sun.half
-                            } else {
-                                apart - (angle - sun.half).abs()
-                            }
-                        });
-                    }
+                let balls = &self.patch.stage.balls;
+                for distance in sun.borders(balls, casters) {
+                    search(&|spot, _| distance(spot));
                 }
                 continue;
             }

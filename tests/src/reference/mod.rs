@@ -12,6 +12,7 @@
 
 mod across;
 mod ball;
+mod beam;
 mod lamp;
 mod light;
 mod line;

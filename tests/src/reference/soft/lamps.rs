@@ -30,6 +30,9 @@ pub(crate) struct Softness {
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub(crate) struct SoftState(u64);
 
+/// A function of points.
+type Border<'a> = Box<dyn Fn(&Spot) -> f64 + 'a>;
+
 /// Of a wide sun with more occluders than this, they do not count: their borders would cut a pixel into too many pieces, and
 /// its light is smooth enough.
 const MANY: usize = 12;
@@ -57,14 +60,41 @@ impl Softness {
 
 impl Sun {
     /// Returns whether the borders of occluders count.
-    pub(crate) fn has_borders(&self, casters: &[usize]) -> bool {
+    fn has_borders(&self, casters: &[usize]) -> bool {
         self.half < WIDE || casters.len() <= MANY
     }
 
     /// The angle between the middle of the disc and that of a ball, and the angle of the ball, seen from a point.
-    pub(crate) fn beside(&self, ball: &Ball, point: DVec3) -> [f64; 2] {
+    fn beside(&self, ball: &Ball, point: DVec3) -> [f64; 2] {
         let cap = cap(ball, point, 0.0);
         [angle_between(self.toward, cap.axis), cap.angle]
+    }
+
+    /// Functions of points of a surface that change their sign where the horizon, or a ball, begins or ceases to hide a part
+    /// of the disc.
+    pub(crate) fn borders<'a>(&self, balls: &'a [Ball], casters: &'a [usize]) -> Vec<Border<'a>> {
+        let Self { toward, half } = *self;
+        let height = |sine: f64| -> Border<'a> {
+            Box::new(move |spot: &Spot| spot.normal.dot(toward) - sine)
+        };
+        let sine = libm::sin(half);
+        let mut borders = vec![height(-sine), height(sine)];
+        if !self.has_borders(casters) {
+            return borders;
+        }
+        let sun = *self;
+        for &caster in casters {
+            let ball = &balls[caster];
+            borders.push(Box::new(move |spot| {
+                let [apart, angle] = sun.beside(ball, spot.point);
+                apart - angle - half
+            }));
+            borders.push(Box::new(move |spot| {
+                let [apart, angle] = sun.beside(ball, spot.point);
+                apart - (angle - half).abs()
+            }));
+        }
+        borders
     }
 
     /// Returns whether a ball may hide a part of the disc from a point within a distance of another.
