@@ -49,7 +49,7 @@ const FAMILIES: [Family; 13] = [
     family(
         "suns of 170 degrees",
         |it| under_sun(it, 170.0, random),
-        1e-12,
+        5e-12,
     ),
     family("skies", |it| under_sky(it, random), 1e-12),
     family(
