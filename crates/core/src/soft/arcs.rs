@@ -2,26 +2,27 @@
 
 use glam::DVec2;
 
-/// Arcs of one circle that are covered.
+/// Arcs of one circle that are covered: some that are apart, in the order of their begins.
 #[derive(Debug, Default)]
 pub(crate) struct CoveredArcs {
     arcs: Vec<Arc>,
-    is_whole: bool,
 }
 
-/// An arc from a point counterclockwise to another.
+/// An arc from a point counterclockwise to another, which does not pass where [`order`] begins.
 #[derive(Clone, Copy, Debug)]
 struct Arc {
-    /// Where it begins and ends, as [`order`] tells; the end may be a turn further.
+    /// Where it begins and ends, as [`order`] tells.
     begin: f64,
     end: f64,
+    /// Vectors toward these points; an end of the order needs none.
     points: [DVec2; 2],
 }
 
 /// What [`order`] grows by in a turn.
 const TURN: f64 = 4.0;
 
-/// A number that grows with the angle of a unit vector, from 0 to less than [`TURN`].
+/// A number that grows with the angle of a vector, from 0 to [`TURN`].
+#[inline]
 fn order(at: DVec2) -> f64 {
     let ratio = at.x / (at.x.abs() + at.y.abs());
     if at.y >= 0.0 {
@@ -34,67 +35,73 @@ fn order(at: DVec2) -> f64 {
 impl CoveredArcs {
     pub(crate) fn clear(&mut self) {
         self.arcs.clear();
-        self.is_whole = false;
     }
 
-    /// Puts the arcs into the order of their begins. There are few.
-    fn sort(&mut self) {
-        for last in 1..self.arcs.len() {
-            let mut place = last;
-            while place > 0 && self.arcs[place].begin < self.arcs[place - 1].begin {
-                self.arcs.swap(place, place - 1);
-                place -= 1;
-            }
+    #[inline]
+    pub(crate) fn is_whole(&self) -> bool {
+        match &self.arcs[..] {
+            [only] => only.begin <= 0.0 && only.end >= TURN,
+            _ => false,
         }
     }
 
-    /// Covers the whole circle.
-    pub(crate) fn cover_all(&mut self) {
-        self.is_whole = true;
-    }
-
-    pub(crate) fn is_whole(&self) -> bool {
-        self.is_whole
-    }
-
-    /// Covers the arc from the first point counterclockwise to the second.
+    /// Covers the arc from the first point counterclockwise to the second; vectors toward them may have any length.
+    #[inline]
     pub(crate) fn cover(&mut self, points: [DVec2; 2]) {
         let [begin, end] = points.map(order);
-        self.arcs.push(Arc {
-            begin,
-            end: if end < begin { end + TURN } else { end },
-            points,
-        });
+        let arc = Arc { begin, end, points };
+        if end < begin {
+            self.insert(Arc { end: TURN, ..arc });
+            self.insert(Arc { begin: 0.0, ..arc });
+        } else if end >= begin {
+            self.insert(arc);
+        }
     }
 
-    /// Calls `visit` with the begin and the end of each arc that is not covered; `None` stands for the whole circle.
-    pub(crate) fn for_each_exposed(&mut self, mut visit: impl FnMut(Option<[DVec2; 2]>)) {
-        if self.is_whole {
+    /// Adds an arc to those that it touches.
+    fn insert(&mut self, arc: Arc) {
+        let arcs = &mut self.arcs;
+        let mut first = arcs.len();
+        while first > 0 && arcs[first - 1].end >= arc.begin {
+            first -= 1;
+        }
+        let mut last = first;
+        while last < arcs.len() && arcs[last].begin <= arc.end {
+            last += 1;
+        }
+        if first == last {
+            arcs.insert(first, arc);
             return;
         }
-        self.sort();
-        let Some(first) = self.arcs.first() else {
+        let end = arcs[last - 1];
+        let merged = &mut arcs[first];
+        if arc.begin < merged.begin {
+            merged.begin = arc.begin;
+            merged.points[0] = arc.points[0];
+        }
+        let end = if arc.end > end.end { arc } else { end };
+        merged.end = end.end;
+        merged.points[1] = end.points[1];
+        arcs.drain(first + 1..last);
+    }
+
+    /// Calls `visit` with unit vectors toward the begin and the end of each arc that is not covered; `None` stands for the
+    /// whole circle.
+    pub(crate) fn for_each_exposed(&self, mut visit: impl FnMut(Option<[DVec2; 2]>)) {
+        let (Some(first), Some(last)) = (self.arcs.first(), self.arcs.last()) else {
             visit(None);
             return;
         };
-        // What arcs across the beginning of the order cover of it.
-        let across = self.arcs.iter().filter(|arc| arc.end >= TURN);
-        let across = across.max_by(|one, other| one.end.total_cmp(&other.end));
-        let mut reached = across.map(|arc| (arc.end - TURN, arc.points[1]));
-        for arc in &self.arcs {
-            if let Some((end, point)) = reached
-                && arc.begin > end
-            {
-                visit(Some([point, arc.points[0]]));
-            }
-            if reached.is_none_or(|(end, _)| arc.end > end) {
-                reached = Some((arc.end, arc.points[1]));
-            }
+        let mut between = |one: &Arc, other: &Arc| {
+            visit(Some(
+                [one.points[1], other.points[0]].map(DVec2::normalize),
+            ));
+        };
+        for pair in self.arcs.windows(2) {
+            between(&pair[0], &pair[1]);
         }
-        if across.is_none()
-            && let Some((_, point)) = reached
-        {
-            visit(Some([point, first.points[0]]));
+        if first.begin > 0.0 || last.end < TURN {
+            between(last, first);
         }
     }
 }

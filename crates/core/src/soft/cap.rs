@@ -15,7 +15,7 @@ pub(crate) struct Cap {
 
 /// The versine of the angle between axes from which on their sum is used. Caps so far apart that touch are wide ones: both
 /// formulas are accurate there.
-const NEARLY_OPPOSITE: f64 = 1.5;
+pub(super) const NEARLY_OPPOSITE: f64 = 1.5;
 
 /// What a cap covers of the circle around another.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,11 +26,42 @@ pub(crate) enum Cover {
     Arc([DVec2; 2]),
 }
 
+/// How the circle around a cap lies to another cap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Meeting {
+    /// None of it is in the other cap.
+    Apart,
+    /// All of it is.
+    Inside,
+    Crossing(Crossing),
+}
+
+/// Where a circle enters and leaves another cap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossing {
+    /// A vector that points to the middle of the covered arc, but for a part along the circle's axis.
+    across: DVec3,
+    /// √D and t, whose ratio is the tangent of half of the covered arc.
+    root: f64,
+    t: f64,
+}
+
+impl Crossing {
+    /// The begin and the end of the covered arc counterclockwise, as vectors of some length in the circle's frame.
+    #[inline]
+    pub(crate) fn ends(&self, frame: &Frame) -> [DVec2; 2] {
+        let toward = DVec2::new(self.across.dot(frame.x), self.across.dot(frame.y));
+        let (t, root) = (self.t, self.root);
+        let (x, y) = (toward * t, toward.perp() * root);
+        [x - y, x + y]
+    }
+}
+
 /// Two unit vectors that form a frame with the axis of a circle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
-    x: DVec3,
-    y: DVec3,
+    pub(super) x: DVec3,
+    pub(super) y: DVec3,
 }
 
 impl Cap {
@@ -98,63 +129,63 @@ impl Cap {
 
     /// What another cap covers of the circle around this one. Of two equal caps `is_first` tells whether this one counts
     /// as the larger one.
+    pub(crate) fn covered(&self, frame: &Frame, other: &Self, is_first: bool) -> Cover {
+        match self.meeting(other, is_first) {
+            Meeting::Apart => Cover::Nothing,
+            Meeting::Inside => Cover::All,
+            Meeting::Crossing(crossing) => Cover::Arc(crossing.ends(frame).map(DVec2::normalize)),
+        }
+    }
+
+    /// How the circle around this cap lies to another cap. Of two equal caps `is_first` tells whether this one counts as the
+    /// larger one.
     ///
     /// With the versines u of this cap, v of the other and w of the angle between the axes, the circles cross if
     /// D = 4 u v − (w − u − v)² − 2 u v w is positive. The covered arc is centered on the other axis, and its half width has
     /// the tangent √D / t, where t = u + w − v − u w. If the axes are nearly opposite, these formulas cancel; their sum
     /// takes the place of their difference then.
-    pub(crate) fn covered(&self, frame: &Frame, other: &Self, is_first: bool) -> Cover {
+    #[inline]
+    pub(crate) fn meeting(&self, other: &Self, is_first: bool) -> Meeting {
         let (u, v) = (self.versine, other.versine);
         let difference = other.axis - self.axis;
-        let w = 0.5 * difference.length_squared();
-        let (across, discriminant, t);
-        let is_inside;
-        if w <= NEARLY_OPPOSITE {
-            let excess = w - u - v;
-            across = difference;
-            discriminant = 4.0 * u * v - excess * excess - 2.0 * u * v * w;
-            t = (u - v) + w * (1.0 - u);
-            is_inside = excess + u * v < 0.0;
-        } else {
-            let sum = other.axis + self.axis;
-            let half = 0.5 * sum.length_squared();
-            let (c, d) = (self.cosine, other.cosine);
-            across = sum;
-            discriminant = half * (2.0 - half) - (c + d) * (c + d) + 2.0 * c * d * half;
-            t = (c + d) - c * half;
-            // Neither is wider than 90°.
-            is_inside = false;
+        let w = difference.length_squared() * 0.5;
+        if w > NEARLY_OPPOSITE {
+            return self.meeting_of_nearly_opposite(other);
         }
-        let toward = DVec2::new(across.dot(frame.x), across.dot(frame.y));
-        let length = toward.length();
-        if discriminant <= 0.0 || length == 0.0 {
+        let excess = w - u - v;
+        let uv = u * v;
+        let discriminant = uv * 4.0 - excess * excess - uv * w * 2.0;
+        if discriminant <= 0.0 || w == 0.0 {
             // One contains the other, or they are apart.
             let is_smaller = u < v || (u == v && !is_first);
-            return if is_inside && is_smaller {
-                Cover::All
+            return if is_smaller && excess + uv < 0.0 {
+                Meeting::Inside
             } else {
-                Cover::Nothing
+                Meeting::Apart
             };
         }
-        let toward = toward / length;
-        let half_width = DVec2::new(t, discriminant.sqrt());
-        let half_width = half_width / half_width.length();
-        let turned = |sine: f64| {
-            DVec2::new(
-                toward.x * half_width.x - toward.y * sine,
-                toward.y * half_width.x + toward.x * sine,
-            )
-        };
-        Cover::Arc([turned(-half_width.y), turned(half_width.y)])
+        Meeting::Crossing(Crossing {
+            across: difference,
+            root: discriminant.sqrt(),
+            t: (u - v) + w * (1.0 - u),
+        })
     }
 
-    /// True if the cap contains another that is smaller, or the same and not `is_first`.
-    pub(crate) fn contains(&self, other: &Self, is_first: bool) -> bool {
-        if other.versine > self.versine || (other.versine == self.versine && is_first) {
-            return false;
+    /// The same of axes that are nearly opposite.
+    #[cold]
+    fn meeting_of_nearly_opposite(&self, other: &Self) -> Meeting {
+        let sum = other.axis + self.axis;
+        let half = 0.5 * sum.length_squared();
+        let (c, d) = (self.cosine, other.cosine);
+        let discriminant = half * (2.0 - half) - (c + d) * (c + d) + 2.0 * c * d * half;
+        // Neither is wider than 90°: none contains the other.
+        if discriminant <= 0.0 {
+            return Meeting::Apart;
         }
-        // The angle between the axes is at most the difference of the angles.
-        let cosine = self.cosine * other.cosine + self.sine * other.sine;
-        self.axis.dot(other.axis) >= cosine
+        Meeting::Crossing(Crossing {
+            across: sum,
+            root: discriminant.sqrt(),
+            t: (c + d) - c * half,
+        })
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! | file | contents |
 //! |---|---|
-//! | `cap.rs`, `arcs.rs`, `visible.rs` | caps, the arcs of their circles, the integral over what is visible |
+//! | `cap.rs`, `circles.rs`, `arcs.rs`, `visible.rs` | caps, the arcs of their circles, the integral over what is visible |
 //! | `point.rs`, `sun.rs`, `sky.rs`, `light.rs` | points, and the light at a point |
 //! | `line.rs`, `heights.rs` | what is seen along a line of the picture, and between which heights that changes smoothly |
 //! | `cell.rs`, `piece.rs` | the average over a pixel or a part of one |
@@ -16,6 +16,7 @@
 mod arcs;
 mod cap;
 mod cell;
+mod circles;
 mod doubt;
 mod edges;
 mod heights;

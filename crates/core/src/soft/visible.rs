@@ -1,17 +1,31 @@
 //! Integrals over the directions that no sphere hides.
 
+use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
 use super::arcs::CoveredArcs;
-use super::cap::{Cap, Cover};
+use super::cap::{Cap, Cover, Frame, Meeting};
+use super::circles::{BLOCK, Circles};
+use crate::numeric::bits::set_bits;
 
 /// The caps that hide directions from a point, and memory to work in.
 #[derive(Debug, Default)]
 pub(crate) struct Hidden {
     caps: Vec<Cap>,
+    /// The caps that were left, side by side.
+    circles: Circles,
     arcs: CoveredArcs,
+}
+
+/// What happens to the integral over visible directions if a cap changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Border {
+    /// The part of the integral that its arcs contribute.
+    part: DVec3,
+    /// The derivative of the integral by the cosine of its angle.
+    by_cosine: DVec3,
 }
 
 impl Hidden {
@@ -32,22 +46,30 @@ impl Hidden {
         self.caps.truncate(count);
     }
 
-    /// Leaves out all caps that another one contains.
+    /// Leaves out all caps that another one contains, and puts the others into an order that does not depend on that in
+    /// which they came.
     pub(crate) fn leave_out_contained(&mut self) {
-        let widest_first = |one: &Cap, other: &Cap| other.versine.total_cmp(&one.versine);
-        self.caps.sort_unstable_by(widest_first);
+        let Self { caps, circles, .. } = self;
+        caps.sort_unstable_by(widest_first);
+        circles.clear();
         let mut kept = 0;
-        for index in 0..self.caps.len() {
-            let cap = self.caps[index];
-            if !self.caps[..kept]
-                .iter()
-                .any(|wider| wider.contains(&cap, false))
-            {
-                self.caps[kept] = cap;
+        for index in 0..caps.len() {
+            let cap = caps[index];
+            if !is_contained(&cap, circles, &caps[..kept]) {
+                circles.push(&cap);
+                caps[kept] = cap;
                 kept += 1;
             }
         }
-        self.caps.truncate(kept);
+        caps.truncate(kept);
+    }
+
+    /// Puts the caps side by side.
+    fn arrange(&mut self) {
+        self.circles.clear();
+        for cap in &self.caps {
+            self.circles.push(cap);
+        }
     }
 
     /// The integral of the directions ω, as vectors, over all that are not hidden. Its product with a normal n is the
@@ -57,9 +79,18 @@ impl Hidden {
     /// circle around a cap with the axis a contributes ½ P × Q and the segment between the arc and its chord, ½ s² (φ − sin φ) a,
     /// with the sine s of the cap's angle and the angle φ of the arc.
     pub(crate) fn seen(&mut self) -> DVec3 {
+        self.seen_with(|_, _| {})
+    }
+
+    /// The same, with the derivative of the integral by the cosine of each cap whose circle is visible.
+    pub(crate) fn seen_with(&mut self, mut visit: impl FnMut(&Cap, DVec3)) -> DVec3 {
+        self.arrange();
         let mut sum = DVec3::ZERO;
         for index in 0..self.caps.len() {
-            sum -= self.along(index, None, DVec3::ZERO);
+            if let Some(border) = self.along(index, None, DVec3::ZERO) {
+                sum -= border.part;
+                visit(&self.caps[index], border.by_cosine);
+            }
         }
         sum
     }
@@ -69,34 +100,57 @@ impl Hidden {
     /// # Accuracy
     /// Points of the border are measured from the middle of the disc, so that small discs lose no digits.
     pub(crate) fn seen_of(&mut self, disc: &Cap) -> DVec3 {
+        self.arrange();
         let mut sum = self.along_disc(disc);
         for index in 0..self.caps.len() {
-            sum -= self.along(index, Some(disc), disc.axis);
+            if let Some(border) = self.along(index, Some(disc), disc.axis) {
+                sum -= border.part;
+            }
         }
         sum
     }
 
-    /// The integral along the arcs of a cap's circle that no other cap hides, and that lie in a disc, if there is one.
-    fn along(&mut self, index: usize, disc: Option<&Cap>, origin: DVec3) -> DVec3 {
-        let cap = self.caps[index];
+    /// What the arcs of a cap's circle that no other cap hides, and that lie in a disc, if there is one, contribute; none if
+    /// there are no such arcs.
+    fn along(&mut self, index: usize, disc: Option<&Cap>, origin: DVec3) -> Option<Border> {
+        let Self {
+            caps,
+            circles,
+            arcs,
+        } = self;
+        let cap = caps[index];
         let frame = cap.frame();
-        self.arcs.clear();
+        arcs.clear();
         if let Some(disc) = disc {
             match cap.covered(&frame, disc, false) {
-                Cover::Nothing => self.arcs.cover_all(),
+                Cover::Nothing => return None,
                 Cover::All => {}
-                Cover::Arc([begin, end]) => self.arcs.cover([end, begin]),
+                Cover::Arc([begin, end]) => arcs.cover([end, begin]),
             }
         }
-        for (number, other) in self.caps.iter().enumerate() {
-            if self.arcs.is_whole() {
-                return DVec3::ZERO;
+        for block in 0..circles.blocks() {
+            let found = circles.block(&cap, block);
+            if found.around != 0 {
+                return None;
             }
-            if number != index {
-                cover(&mut self.arcs, cap.covered(&frame, other, index < number));
+            for bit in set_bits(found.unsure) {
+                let number = block * BLOCK + bit;
+                if number == index {
+                    continue;
+                }
+                match cap.meeting(&caps[number], index < number) {
+                    Meeting::Apart => {}
+                    Meeting::Inside => return None,
+                    Meeting::Crossing(crossing) => {
+                        arcs.cover(crossing.ends(&frame));
+                        if arcs.is_whole() {
+                            return None;
+                        }
+                    }
+                }
             }
         }
-        integral(&mut self.arcs, &cap, origin)
+        Some(integral(arcs, &cap, &frame, origin))
     }
 
     /// The integral along the arcs of a disc's circle that no cap hides.
@@ -104,36 +158,62 @@ impl Hidden {
         let frame = disc.frame();
         self.arcs.clear();
         for cap in &self.caps {
-            cover(&mut self.arcs, disc.covered(&frame, cap, false));
+            match disc.covered(&frame, cap, false) {
+                Cover::Nothing => {}
+                Cover::All => return DVec3::ZERO,
+                Cover::Arc(points) => self.arcs.cover(points),
+            }
             if self.arcs.is_whole() {
                 return DVec3::ZERO;
             }
         }
-        integral(&mut self.arcs, disc, disc.axis)
+        integral(&self.arcs, disc, &frame, disc.axis).part
     }
 }
 
-fn cover(arcs: &mut CoveredArcs, cover: Cover) {
-    match cover {
-        Cover::Nothing => {}
-        Cover::All => arcs.cover_all(),
-        Cover::Arc(points) => arcs.cover(points),
-    }
+/// True if one of some wider caps, which `circles` are of, contains a cap.
+fn is_contained(cap: &Cap, circles: &Circles, wider: &[Cap]) -> bool {
+    (0..circles.blocks()).any(|block| {
+        let found = circles.block(cap, block);
+        found.around != 0
+            || set_bits(found.unsure).any(|bit| {
+                let meeting = cap.meeting(&wider[block * BLOCK + bit], false);
+                matches!(meeting, Meeting::Inside)
+            })
+    })
 }
 
-/// ½ ∮ (r − o) × dr along the arcs of a circle that are not covered, counterclockwise.
-fn integral(arcs: &mut CoveredArcs, cap: &Cap, origin: DVec3) -> DVec3 {
-    let frame = cap.frame();
-    let (mut sum, mut segments) = (DVec3::ZERO, 0.0);
+/// The order of caps by their angles, and of equal ones by their axes.
+fn widest_first(one: &Cap, other: &Cap) -> Ordering {
+    other.versine.total_cmp(&one.versine).then_with(|| {
+        let by = |axis: usize| one.axis[axis].total_cmp(&other.axis[axis]);
+        by(0).then_with(|| by(1)).then_with(|| by(2))
+    })
+}
+
+/// ½ ∮ (r − o) × dr and ∫ r dφ along the arcs of a circle that are not covered, counterclockwise.
+fn integral(arcs: &CoveredArcs, cap: &Cap, frame: &Frame, origin: DVec3) -> Border {
+    let (mut sum, mut segments, mut angles) = (DVec3::ZERO, 0.0, 0.0);
+    let mut chords = DVec2::ZERO;
     arcs.for_each_exposed(|ends| match ends {
-        None => segments += TAU,
+        None => {
+            segments += TAU;
+            angles += TAU;
+        }
         Some(ends) => {
-            let [begin, end] = ends.map(|at| cap.point(&frame, at, origin));
+            let [begin, end] = ends.map(|at| cap.point(frame, at, origin));
             sum += begin.cross(end);
-            segments += segment(angle(ends));
+            let angle = angle(ends);
+            segments += segment(angle);
+            angles += angle;
+            chords += ends[1] - ends[0];
         }
     });
-    0.5 * (sum + cap.axis * (cap.sine * cap.sine * segments))
+    Border {
+        part: 0.5 * (sum + cap.axis * (cap.sine * cap.sine * segments)),
+        by_cosine: cap.axis * (cap.cosine * angles)
+            + (frame.x * chords.y - frame.y * chords.x) * cap.sine,
+    }
 }
 
 /// The angle from a unit vector counterclockwise to another, from 0 to a turn.
