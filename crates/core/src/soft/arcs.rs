@@ -93,9 +93,7 @@ impl CoveredArcs {
             return;
         };
         let mut between = |one: &Arc, other: &Arc| {
-            visit(Some(
-                [one.points[1], other.points[0]].map(DVec2::normalize),
-            ));
+            visit(Some([one.points[1], other.points[0]].map(DVec2::normalize)));
         };
         for pair in self.arcs.windows(2) {
             between(&pair[0], &pair[1]);

@@ -32,8 +32,9 @@ pub(crate) trait Light {
     /// The light of a candidate's sphere; none where the ray misses it.
     fn at(&mut self, candidate: &Candidate, place: DVec2) -> Option<Color>;
 
-    /// A bound or an estimate of the part of the light of a cell that may change between points without being noticed.
-    fn doubt(&mut self, candidate: &Candidate, cell: &Cell) -> f64;
+    /// A bound or an estimate of the part of the light of a cell that may change without being noticed between points that
+    /// are some part of the cell apart.
+    fn doubt(&mut self, candidate: &Candidate, cell: &Cell, spacing: f64) -> f64;
 
     /// A bound of the light of a surface.
     fn brightest(&self) -> f64;
@@ -340,7 +341,7 @@ impl Cells {
         if is_missed || middle.is_none() {
             error = light.brightest();
         }
-        let mut doubt = light.doubt(sphere, cell);
+        let mut doubt = light.doubt(sphere, cell, 1.0);
         if let Contents::Smooth { doubt: of_light } = contents {
             doubt = doubt.max(of_light);
         }
@@ -483,7 +484,7 @@ impl Cells {
         }
         let (mean, error) = mean_of_fit(piece.moment / piece.area, &nodes, &colors);
         let brightest = mean.abs().max_element().max(error);
-        let doubt = light.doubt(candidate, cell);
+        let doubt = light.doubt(candidate, cell, 1.0);
         Integral {
             value: mean * piece.area,
             error: error.max(doubt) * piece.area

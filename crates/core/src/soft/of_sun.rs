@@ -139,8 +139,9 @@ impl Light for OfSun<'_> {
         !matches!(self.shading(candidate), ShadingNormal::Factors(_))
     }
 
-    fn doubt(&mut self, candidate: &Candidate, cell: &Cell) -> f64 {
-        let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
+    fn doubt(&mut self, candidate: &Candidate, cell: &Cell, spacing: f64) -> f64 {
+        let mut extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
+        extent.turn *= spacing;
         let shading = self.shading(candidate);
         let of_surface = of_bumps(&extent, &shading).max(of_highlight(
             self.sun,

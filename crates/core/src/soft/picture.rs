@@ -392,7 +392,7 @@ impl super::cell::Light for OfPixel<'_, '_> {
         )
     }
 
-    fn doubt(&mut self, candidate: &Candidate, cell: &Cell) -> f64 {
+    fn doubt(&mut self, candidate: &Candidate, cell: &Cell, _spacing: f64) -> f64 {
         let soft = self.soft;
         let scale = libm::scalbn(1.0, soft.index.length_exponent());
         let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);

@@ -75,8 +75,8 @@ impl Occluders<'_> {
         });
     }
 
-    /// Calls `visit` with all spheres but one that may lie in some directions. A sphere that coincides with that one hides
-    /// nothing.
+    /// Calls `visit` with all spheres that may lie in some directions and hide light from one of them: not with those inside
+    /// of it, nor with those that coincide with it but for rounding.
     pub(crate) fn for_each_sphere(
         &self,
         but: usize,
@@ -87,9 +87,16 @@ impl Occluders<'_> {
         self.hierarchy
             .for_each_beyond(self.spheres, beyond, |index| {
                 let sphere = &self.spheres[index];
-                if index != but && sphere != own {
+                if index != but && !is_within(sphere, own) {
                     visit(sphere);
                 }
             });
     }
+}
+
+/// True if a sphere is inside another, or outside of it by no more than rounding.
+fn is_within(sphere: &Sphere, other: &Sphere) -> bool {
+    const ROUNDING: f64 = 1e-14;
+    let apart = (sphere.center() - other.center()).length();
+    apart <= other.radius() - sphere.radius() + ROUNDING * other.radius()
 }

@@ -158,6 +158,9 @@ const MOST_DIVISIONS: usize = 16;
 /// Halvings that find the height at which something begins or ends.
 const HALVINGS: u32 = 8;
 
+/// How far points of lines are apart, in parts of the cell.
+const SPACING: f64 = 0.25;
+
 /// A curve costs about as much as so many points.
 const POINTS_OF_CURVE: u64 = 4;
 
@@ -194,7 +197,7 @@ impl Strips {
         for (number, candidate) in candidates.iter().enumerate() {
             let contents = light.contents(candidate, cell, number);
             if !matches!(contents, Contents::Dark) {
-                doubt = doubt.max(light.doubt(candidate, cell));
+                doubt = doubt.max(light.doubt(candidate, cell, SPACING));
             }
             if let Contents::Edges { doubt: of_edges } = contents {
                 doubt = doubt.max(of_edges);
