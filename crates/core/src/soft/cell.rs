@@ -11,9 +11,9 @@
 
 use glam::DVec2;
 
-use super::heights::heights;
+use super::heights::{add_crossings, heights};
 use super::line::{Candidate, Span, spans};
-use super::piece::{BANDS, Piece, mean_of_fit};
+use super::piece::{Piece, mean_of_fit};
 use super::seam::Seam;
 use super::strips::{Curve, Strips};
 use crate::model::camera::Projection;
@@ -395,13 +395,22 @@ impl Cells {
             ..
         } = self;
         Seam::all(candidates, seams);
-        let heights = heights(
+        let mut heights = heights(
             (candidates, seams),
             (cell.u, cell.v),
             projection,
             (ends, found),
             |_, _, _| {},
         );
+        add_crossings(&mut heights, |v| {
+            spans((candidates, seams), cell.u, v, projection, ends, found);
+            let places = found
+                .iter()
+                .map(|span| span.seen.map_or(0, |place| place + 1));
+            places.fold(0, |pattern: usize, place| {
+                pattern.wrapping_mul(31).wrapping_add(place)
+            })
+        });
         let mut of = |place: usize, act: &mut dyn FnMut(&mut Piece)| {
             let known = pieces.iter().position(|piece| piece.place == place);
             let index = known.unwrap_or_else(|| {
@@ -415,14 +424,10 @@ impl Cells {
             for (node, weight) in &*rule {
                 let v = low + height * *node;
                 spans((candidates, seams), cell.u, v, projection, ends, found);
-                let band = (v - cell.v[0]) / (cell.v[1] - cell.v[0]) * BANDS as f64;
-                let band = (band as usize).min(BANDS - 1);
                 for Span { begin, end, seen } in &*found {
                     if let Some(place) = *seen {
                         let weight = height * *weight;
-                        of(place, &mut |piece| {
-                            piece.add(band, v, [*begin, *end], weight)
-                        });
+                        of(place, &mut |piece| piece.add(v, [*begin, *end], weight));
                     }
                 }
             }

@@ -128,7 +128,12 @@ pub(crate) fn of_highlight(
 }
 
 /// The place where a surface turns away from a sun: light may begin between points.
-pub(crate) fn of_terminator(sun: &Sun, extent: &Extent, shading: &ShadingNormal) -> f64 {
+pub(crate) fn of_terminator(
+    sun: &Sun,
+    extent: &Extent,
+    shading: &ShadingNormal,
+    exponent: f64,
+) -> f64 {
     /// The mean over a cell of light that begins in it, in parts of what it grows to. Not tuned.
     const OF_BEND: f64 = 0.125;
     let turn = extent.turn * shading.slope_bound();
@@ -138,7 +143,7 @@ pub(crate) fn of_terminator(sun: &Sun, extent: &Extent, shading: &ShadingNormal)
     }
     // Over the disc's diameter light bends evenly.
     let bend = (turn / sun.disc.sine).min(1.0);
-    OF_BEND * turn.min(1.0) * bend
+    OF_BEND * libm::pow(turn.min(1.0), exponent) * bend
 }
 
 /// A penumbra that begins or ends in a cell of some size around a point.

@@ -10,8 +10,8 @@ use glam::DVec3;
 pub(crate) enum Edge {
     /// Another sphere, in the camera's frame and the units of candidates.
     Sphere { center: DVec3, radius: f64 },
-    /// The own surface.
-    Horizon,
+    /// The own surface; with a highlight, which ends where the disc's middle sets.
+    Horizon { has_highlight: bool },
 }
 
 /// How far a point is from where something begins to hide a sun.
@@ -53,7 +53,7 @@ impl Edge {
                     wide: wide.abs(),
                 }
             }
-            Self::Horizon => {
+            Self::Horizon { .. } => {
                 let height = place.least_height(disc.axis);
                 Height {
                     outer: height - disc.sine,
@@ -79,16 +79,21 @@ pub(crate) const KNOTS: usize = 5;
 const STEPS: u32 = 12;
 
 /// Finds the places from 0 to 1 on a curve at which an edge begins or ceases to hide some of a disc, or all of it: heights
-/// are 0 there, to a part of the penumbra's width.
+/// are 0 there, to a part of the penumbra's width. With `has_middle` also those at which it hides about half.
 ///
 /// Heights bend little between knots; where one may turn before it reaches 0, its turn is looked at.
 pub(crate) fn add_breaks(
     knots: &[Height; KNOTS],
     mut height: impl FnMut(f64) -> Height,
+    has_middle: bool,
     breaks: &mut Vec<f64>,
 ) {
-    let kinds: [fn(&Height) -> f64; 2] = [|of| of.outer, |of| of.inner];
-    for kind in kinds {
+    let kinds: [fn(&Height) -> f64; 3] = [
+        |of| of.outer,
+        |of| of.inner,
+        |of| 0.5 * (of.outer + of.inner),
+    ];
+    for kind in &kinds[..if has_middle { 3 } else { 2 }] {
         let values = knots.map(|knot| kind(&knot));
         if values.iter().all(|&value| value == values[0]) {
             continue;
@@ -97,7 +102,7 @@ pub(crate) fn add_breaks(
         for index in 1..KNOTS {
             let (low, high) = (knot(index - 1), knot(index));
             if (low.1 < 0.0) != (high.1 < 0.0) {
-                breaks.push(root(low, high, kind, &mut height));
+                breaks.push(root(low, high, *kind, &mut height));
             }
         }
         for index in 1..KNOTS - 1 {
@@ -121,8 +126,8 @@ pub(crate) fn add_breaks(
                 } else {
                     (at, after)
                 };
-                breaks.push(root(low, there, kind, &mut height));
-                breaks.push(root(there, high, kind, &mut height));
+                breaks.push(root(low, there, *kind, &mut height));
+                breaks.push(root(there, high, *kind, &mut height));
             }
         }
     }

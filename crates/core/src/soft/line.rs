@@ -69,6 +69,14 @@ impl Candidate {
         }
     }
 
+    /// The radius of the concentric sphere whose contour is the circle in which the plane where parallel rays begin cuts the
+    /// sphere.
+    pub(super) fn cut(&self, projection: Projection) -> Option<f64> {
+        let DVec3 { z, .. } = self.center;
+        let is_cut = projection == Projection::Parallel && z.abs() < self.radius;
+        is_cut.then(|| ((self.radius - z) * (self.radius + z)).sqrt())
+    }
+
     /// The distance at which a ray meets the sphere, in multiples of the ray, and whether that is from inside.
     fn distance(&self, u: f64, v: f64, projection: Projection) -> Option<(f64, bool)> {
         let discriminant = self.meets(u, v, self.radius, projection);
@@ -221,9 +229,7 @@ pub(crate) fn spans(
         if let Some(inner) = candidate.inner {
             candidate.add_ends(v, inner, projection, ends);
         }
-        if projection == Projection::Parallel && candidate.center.z.abs() < candidate.radius {
-            let DVec3 { z, .. } = candidate.center;
-            let cut = (candidate.radius * candidate.radius - z * z).sqrt();
+        if let Some(cut) = candidate.cut(projection) {
             candidate.add_ends(v, cut, projection, ends);
         }
     }

@@ -106,7 +106,8 @@ impl OfSun<'_> {
             return false;
         }
         if height - turn.max(rough_turn) - shading.most_tilt() < disc.sine {
-            edges.push(Edge::Horizon);
+            let has_highlight = self.world.material(candidate.sphere).highlight.is_some();
+            edges.push(Edge::Horizon { has_highlight });
         }
         let middle = SurfacePoint {
             position: extent.middle,
@@ -177,10 +178,11 @@ impl Light for OfSun<'_> {
         let mut is_narrow = false;
         for edge in &self.memory.edges[number] {
             match edge {
-                Edge::Horizon => {
+                Edge::Horizon { has_highlight } => {
                     let turn = extent.turn * shading.slope_bound();
-                    is_narrow |= turn > self.sun.disc.sine / NARROW;
-                    doubt = doubt.max(of_terminator(self.sun, &extent, &shading));
+                    is_narrow |= turn > self.sun.disc.sine / NARROW || *has_highlight;
+                    let exponent = self.world.material(candidate.sphere).exponent;
+                    doubt = doubt.max(of_terminator(self.sun, &extent, &shading, exponent));
                 }
                 Edge::Sphere { radius, .. } => {
                     let height = edge.height(&middle, &self.sun.disc);
@@ -232,6 +234,12 @@ impl Light for OfSun<'_> {
             add_breaks(
                 &heights,
                 |place| edge.height(&self.place(candidate, &shading, curve.at(place)), &disc),
+                matches!(
+                    edge,
+                    Edge::Horizon {
+                        has_highlight: true
+                    }
+                ),
                 breaks,
             );
         }

@@ -14,20 +14,32 @@ pub(crate) struct Piece {
     pub(crate) moment: DVec2,
     /// The area by a rule with half of the lines.
     pub(crate) rough_area: f64,
-    /// The area and the first moments in each band of lines, and the span nearest to the band's centroid.
-    pub(crate) bands: [Band; BANDS],
+    spans: Vec<PieceSpan>,
 }
 
 /// The bands of lines in which light is computed.
-pub(crate) const BANDS: usize = 3;
+const BANDS: usize = 3;
+
+/// A part of a line.
+#[derive(Clone, Copy, Debug)]
+struct PieceSpan {
+    v: f64,
+    ends: [f64; 2],
+    /// The area that it stands for.
+    area: f64,
+}
 
 /// A part of a piece.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Band {
-    pub(crate) area: f64,
-    pub(crate) moment: DVec2,
-    /// Spans of the band: their height, begin and end.
-    pub(crate) spans: Vec<[f64; 3]>,
+struct Band {
+    area: f64,
+    moment: DVec2,
+}
+
+impl PieceSpan {
+    fn moment(&self) -> DVec2 {
+        DVec2::new(0.5 * (self.ends[0] + self.ends[1]), self.v) * self.area
+    }
 }
 
 impl Piece {
@@ -37,20 +49,17 @@ impl Piece {
             area: 0.0,
             moment: DVec2::ZERO,
             rough_area: 0.0,
-            bands: Default::default(),
+            spans: Vec::new(),
         }
     }
 
-    /// Adds a span of a line in a band, whose area is its length times `weight`.
-    pub(crate) fn add(&mut self, band: usize, v: f64, [begin, end]: [f64; 2], weight: f64) {
-        let area = (end - begin) * weight;
-        let moment = DVec2::new(0.5 * (begin + end), v) * area;
+    /// Adds a span of a line, whose area is its length times `weight`.
+    pub(crate) fn add(&mut self, v: f64, ends: [f64; 2], weight: f64) {
+        let area = (ends[1] - ends[0]) * weight;
+        let span = PieceSpan { v, ends, area };
         self.area += area;
-        self.moment += moment;
-        let band = &mut self.bands[band];
-        band.area += area;
-        band.moment += moment;
-        band.spans.push([v, begin, end]);
+        self.moment += span.moment();
+        self.spans.push(span);
     }
 
     /// The places at which light is computed: all of them are seen. Three of them lie on one span, for light near a contour
@@ -60,15 +69,38 @@ impl Piece {
         const TWO: [f64; 2] = [-0.577_350_269_189_625_7, 0.577_350_269_189_625_7];
         const THREE: [f64; 3] = [-0.774_596_669_241_483_4, 0.0, 0.774_596_669_241_483_4];
         let mut nodes = Vec::with_capacity(2 * BANDS + 1);
-        let largest = self.bands.iter().map(|band| band.area).fold(0.0, f64::max);
-        for band in self.bands.iter().filter(|band| band.area > 0.0) {
+        let heights = self.spans.iter().map(|span| span.v);
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        });
+        let number = |v: f64| {
+            let band = (v - low) / (high - low) * BANDS as f64;
+            (band as usize).min(BANDS - 1)
+        };
+        let mut bands: [Band; BANDS] = Default::default();
+        for span in &self.spans {
+            let band = &mut bands[number(span.v)];
+            band.area += span.area;
+            band.moment += span.moment();
+        }
+        let largest = bands.iter().map(|band| band.area).fold(0.0, f64::max);
+        for (index, band) in bands.iter().enumerate() {
             let centroid = band.moment / band.area;
-            let distance = |&[v, begin, end]: &[f64; 3]| {
+            let distance = |&PieceSpan {
+                                v,
+                                ends: [begin, end],
+                                ..
+                            }: &PieceSpan| {
                 (v - centroid.y).abs() + (begin - centroid.x).max(centroid.x - end).max(0.0)
             };
-            let spans = band.spans.iter();
+            let spans = self.spans.iter().filter(|span| number(span.v) == index);
             let nearest = spans.min_by(|one, other| distance(one).total_cmp(&distance(other)));
-            let Some(&[v, begin, end]) = nearest else {
+            let Some(&PieceSpan {
+                v,
+                ends: [begin, end],
+                ..
+            }) = nearest
+            else {
                 continue;
             };
             let places: &[f64] = if band.area == largest { &THREE } else { &TWO };

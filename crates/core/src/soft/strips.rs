@@ -392,7 +392,8 @@ impl Strips {
             line.sum += along.integral;
             line.error += along.error;
             line.breaks += along.breaks;
-            line.pattern = (line.pattern * 31 + number + 1) * 31 + along.breaks;
+            let of_span = (number + 1).wrapping_mul(31).wrapping_add(along.breaks);
+            line.pattern = line.pattern.wrapping_mul(961).wrapping_add(of_span);
         }
         line
     }

@@ -58,7 +58,7 @@ impl Sun {
         }
         let mut is_partial = false;
         for edge in edges {
-            if matches!(edge, Edge::Horizon) {
+            if matches!(edge, Edge::Horizon { .. }) {
                 continue;
             }
             let height = edge.height(place, disc);
