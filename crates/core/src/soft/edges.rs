@@ -76,7 +76,7 @@ impl Edge {
 pub(crate) const KNOTS: usize = 5;
 
 /// Steps that find where a height is 0.
-const STEPS: u32 = 12;
+const STEPS: u32 = 40;
 
 /// Finds the places from 0 to 1 on a curve at which an edge begins or ceases to hide some of a disc, or all of it: heights
 /// are 0 there, to a part of the penumbra's width. With `has_middle` also those at which it hides about half.
