@@ -1,8 +1,9 @@
 //! The average of soft light over a cell: a pixel, or a part of one.
 //!
 //! A cell inside one sphere takes the light at its corners and in its middle. Any other is cut into horizontal lines, on
-//! which what is seen is known exactly; the light on each of its pieces is that of a plane through some points. Cells that
-//! claim the most are divided.
+//! which what is seen is known exactly. A sun is integrated along these lines (`strips.rs`), and so it is in a cell inside one
+//! sphere where edges of its penumbrae are narrow; the light of a sky on each piece of a cell is that of a plane through some
+//! points. Cells that claim the most are divided.
 //!
 //! # Accuracy
 //! All claims are estimates. What could fool them are changes of light between points: [`Light::doubt`] finds shadows of
@@ -11,101 +12,16 @@
 
 use glam::DVec2;
 
+use super::candidate::Candidate;
 use super::heights::{add_crossings, heights};
-use super::line::{Candidate, Span, spans};
+use super::line::{Span, spans};
 use super::piece::{Piece, mean_of_fit};
+use super::rectangle::{Cell, Contents, Integral, Light};
 use super::seam::Seam;
-use super::strips::{Curve, Strips};
+use super::strips::Strips;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::numeric::jacobi::JacobiRule;
-
-/// A rectangle of the picture, where rays have the directions (u, v, 1); parallel rays begin at (u, v, 0).
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Cell {
-    pub(crate) u: [f64; 2],
-    pub(crate) v: [f64; 2],
-}
-
-/// The light of spheres at places of a picture.
-pub(crate) trait Light {
-    /// The light of a candidate's sphere; none where the ray misses it.
-    fn at(&mut self, candidate: &Candidate, place: DVec2) -> Option<Color>;
-
-    /// A bound or an estimate of the part of the light of a cell that may change without being noticed between points that
-    /// are some part of the cell apart.
-    fn doubt(&mut self, candidate: &Candidate, cell: &Cell, spacing: f64) -> f64;
-
-    /// A bound of the light of a surface.
-    fn brightest(&self) -> f64;
-
-    /// True if a sphere may be seen in a cell.
-    fn may_see(&self, candidate: &Candidate, cell: &Cell) -> bool;
-
-    /// False if the light of a candidate at a place differs from pixel to pixel.
-    fn is_shared(&self, candidate: &Candidate) -> bool;
-
-    /// What the light on a candidate is like in a cell. Later calls speak of this cell, and give the same `number`.
-    fn contents(&mut self, _candidate: &Candidate, _cell: &Cell, _number: usize) -> Contents {
-        Contents::Unknown
-    }
-
-    /// Adds the places on a curve, from 0 to 1, at which light is not smooth. Returns false if there is no light on it.
-    fn add_breaks(
-        &mut self,
-        _candidate: &Candidate,
-        _curve: &Curve,
-        _number: usize,
-        _breaks: &mut Vec<f64>,
-    ) -> bool {
-        true
-    }
-
-    /// The integral along a curve; the limit is for its error in parts of the curve's length.
-    fn along(
-        &mut self,
-        _candidate: &Candidate,
-        _curve: &Curve,
-        _number: usize,
-        _limit: f64,
-    ) -> Along {
-        Along {
-            error: self.brightest(),
-            ..Along::default()
-        }
-    }
-}
-
-/// Light along a curve.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Along {
-    pub(crate) integral: Color,
-    /// An estimate of its error.
-    pub(crate) error: f64,
-    /// The number of places at which light is not smooth.
-    pub(crate) breaks: usize,
-}
-
-/// What light is like in a cell.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Contents {
-    /// It is known at points alone.
-    Unknown,
-    /// There is none.
-    Dark,
-    /// It is smooth but for changes of a part of the brightest light.
-    Smooth { doubt: f64 },
-    /// It changes over widths that are small beside the cell: its breaks are to be looked for. What they may miss is a part of
-    /// the brightest light.
-    Edges { doubt: f64 },
-}
-
-/// The integral over a cell, and an estimate of its error.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Integral {
-    pub(crate) value: Color,
-    pub(crate) error: f64,
-}
 
 /// The claim of a cell inside one sphere, in parts of what the light in its middle differs from the mean of its corners, of
 /// what the means of its diagonals differ, and of what any corner differs from the middle.
@@ -183,23 +99,6 @@ struct Part {
     cell: Cell,
     candidates: Vec<Candidate>,
     integral: Integral,
-}
-
-impl Cell {
-    pub(crate) fn area(&self) -> f64 {
-        (self.u[1] - self.u[0]) * (self.v[1] - self.v[0])
-    }
-
-    pub(crate) fn middle(&self) -> DVec2 {
-        DVec2::new(0.5 * (self.u[0] + self.u[1]), 0.5 * (self.v[0] + self.v[1]))
-    }
-
-    fn quarters(&self) -> [Self; 4] {
-        let DVec2 { x, y } = self.middle();
-        let (left, right) = ([self.u[0], x], [x, self.u[1]]);
-        let (low, high) = ([self.v[0], y], [y, self.v[1]]);
-        [(left, low), (right, low), (left, high), (right, high)].map(|(u, v)| Self { u, v })
-    }
 }
 
 impl Cells {

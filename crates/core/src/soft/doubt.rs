@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
+use super::candidate::Candidate;
 use super::edges::Height;
-use super::line::Candidate;
 use super::point::Occluders;
 use super::sun::Sun;
 use crate::light::shading_normal::ShadingNormal;

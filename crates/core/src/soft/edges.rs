@@ -42,7 +42,8 @@ impl Edge {
                     if is_beside {
                         distance - radius
                     } else {
-                        to_center.length() - radius
+                        // It hides nothing, even if rounding puts the point into the sphere.
+                        (to_center.length() - radius).max(0.0)
                     }
                 };
                 let is_near = along * disc.cosine + aside * disc.sine >= 0.0;

@@ -5,7 +5,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::line::{Candidate, Span, spans};
+use super::candidate::Candidate;
+use super::line::{Span, spans};
 use super::seam::Seam;
 use crate::model::camera::Projection;
 

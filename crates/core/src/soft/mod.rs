@@ -8,15 +8,19 @@
 //! |---|---|
 //! | `cap.rs`, `circles.rs`, `arcs.rs`, `visible.rs` | caps, the arcs of their circles, the integral over what is visible |
 //! | `point.rs`, `sun.rs`, `sky.rs`, `light.rs` | points, and the light at a point |
-//! | `line.rs`, `heights.rs` | what is seen along a line of the picture, and between which heights that changes smoothly |
-//! | `cell.rs`, `piece.rs` | the average over a pixel or a part of one |
+//! | `candidate.rs`, `seam.rs`, `line.rs`, `heights.rs` | what is seen along a line of the picture, and between which heights that changes smoothly |
+//! | `rectangle.rs`, `cell.rs` | a pixel or a part of one, and the average over it |
+//! | `piece.rs` | of light that is costly: from few points of each sphere |
+//! | `curve.rs`, `edges.rs`, `strips.rs`, `of_sun.rs` | of a sun's light: along lines, on which the places are found where spheres begin to hide it |
 //! | `doubt.rs` | changes of light that points of a cell may miss |
 //! | `picture.rs` | the averages over pixels, by samples or to a tolerance |
 
 mod arcs;
+mod candidate;
 mod cap;
 mod cell;
 mod circles;
+mod curve;
 mod doubt;
 mod edges;
 mod heights;
@@ -26,6 +30,7 @@ mod of_sun;
 pub(crate) mod picture;
 mod piece;
 mod point;
+mod rectangle;
 mod seam;
 mod sky;
 mod strips;

@@ -2,13 +2,13 @@
 
 use glam::{DMat3, DVec2};
 
-use super::cell::{Along, Cell, Contents, Light};
+use super::candidate::Candidate;
+use super::curve::Curve;
 use super::doubt::{Extent, of_bumps, of_highlight, of_penumbra, of_speck, of_terminator};
 use super::edges::{Edge, KNOTS, add_breaks};
 use super::light::sun_light;
-use super::line::Candidate;
 use super::point::SurfacePoint;
-use super::strips::Curve;
+use super::rectangle::{Along, Cell, Contents, Light};
 use super::sun::Sun;
 use super::visible::Hidden;
 use crate::light::shading_normal::ShadingNormal;

@@ -4,13 +4,14 @@ use std::num::NonZeroU32;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::cell::{Cell, Cells, Integral};
+use super::candidate::Candidate;
+use super::cell::Cells;
 use super::doubt::{Extent, of_bumps, of_small_spheres};
 use super::edges::Edge;
 use super::light::SoftLight;
-use super::line::Candidate;
 use super::of_sun::{OfSun, SunMemory, strongest_highlight};
 use super::point::{Occluders, SurfacePoint};
+use super::rectangle::{Cell, Integral, Light};
 use super::sun::Sun;
 use super::visible::Hidden;
 use crate::hit::outcome::Hit;
@@ -382,7 +383,7 @@ impl OfPixel<'_, '_> {
     }
 }
 
-impl super::cell::Light for OfPixel<'_, '_> {
+impl Light for OfPixel<'_, '_> {
     fn at(&mut self, candidate: &Candidate, place: DVec2) -> Option<Color> {
         let point = self.point(candidate, place)?;
         let occluders = self.soft.occluders();

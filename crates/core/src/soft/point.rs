@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::candidate::Candidate;
 use super::cap::Cap;
-use super::line::Candidate;
 use crate::model::camera::Projection;
 use crate::model::sphere::Sphere;
 use crate::search::beyond::Beyond;

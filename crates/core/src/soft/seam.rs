@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::line::Candidate;
+use super::candidate::Candidate;
 use crate::model::camera::Projection;
 
 /// The circle in which two spheres meet, in the camera's frame.

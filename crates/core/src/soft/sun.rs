@@ -62,7 +62,7 @@ impl Sun {
                 continue;
             }
             let height = edge.height(place, disc);
-            if height.inner <= 0.0 {
+            if height.inner < 0.0 {
                 return Received { whole, share: 0.0 };
             }
             if height.outer < 0.0 {
