@@ -169,3 +169,6 @@ fn root(
     }
     place
 }
+
+#[cfg(test)]
+mod tests;

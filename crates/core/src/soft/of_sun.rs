@@ -62,7 +62,7 @@ pub(crate) fn strongest_highlight(world: &World) -> f64 {
 /// Half of a penumbra's width, in parts of the size of a cell, below which its edges are looked for.
 const NARROW: f64 = 3.0;
 
-/// The points of a curve are no further from its middle than so many times its ends, and the knots between.
+/// Points of a curve are taken to be no further from its middle than so many times the furthest knot. Not proved.
 const REACH: f64 = 1.25;
 
 /// The claim of a part of a curve, in parts of the second difference of its nodes. Not tuned.
@@ -218,7 +218,6 @@ impl Light for OfSun<'_> {
         });
         let middle = knots[KNOTS / 2];
         let reach = |knot: &SurfacePoint| (knot.position - middle.position).length();
-        // Light turns along a curve by less than its chord is long.
         let reach = REACH * knots.iter().map(reach).fold(0.0, f64::max);
         for edge in &self.memory.edges[number] {
             if matches!(edge, Edge::Sphere { .. }) {

@@ -89,3 +89,6 @@ impl Seam {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,140 @@
+//! Compares edges of penumbrae with what is visible of the disc, by the arcs of its circle.
+
+use glam::DVec3;
+
+use super::{Edge, Height, KNOTS, add_breaks};
+use crate::model::color::Color;
+use crate::soft::cap::Cap;
+use crate::soft::point::SurfacePoint;
+use crate::soft::sun::Sun;
+use crate::soft::visible::Hidden;
+
+/// A point of a floor, and a sun half of whose diameter is `angle`, above it.
+fn on_floor(position: DVec3) -> SurfacePoint {
+    SurfacePoint {
+        position,
+        normal: DVec3::Y,
+        shading: DVec3::Y,
+        to_eye: DVec3::Y,
+        sphere: 0,
+    }
+}
+
+fn sun(toward: DVec3, angle: f64) -> Sun {
+    Sun {
+        disc: Cap::within(toward.normalize(), angle),
+        intensity: Color::ONE,
+    }
+}
+
+/// A sphere above the floor, and the way of its shadow's middle for a sun.
+const CENTER: DVec3 = DVec3::new(0.3, 2.0, -0.4);
+const RADIUS: f64 = 0.7;
+
+fn share(sun: &Sun, edge: &Edge, place: &SurfacePoint) -> f64 {
+    // Not by heights: the cap is hidden whatever they are.
+    let mut hidden = Hidden::default();
+    edge.hide(place, &mut hidden);
+    let seen = hidden.seen_of(&sun.disc).dot(sun.disc.axis);
+    seen / Hidden::default().seen_of(&sun.disc).dot(sun.disc.axis)
+}
+
+#[test]
+fn the_disc_is_partly_hidden_between_both_edges() {
+    let edge = Edge::Sphere {
+        center: CENTER,
+        radius: RADIUS,
+    };
+    let mut found = [0; 3];
+    for (toward, angle) in [
+        (DVec3::new(0.2, 1.0, 0.1), 0.004),
+        (DVec3::new(-0.5, 0.6, 0.3), 0.05),
+        (DVec3::new(0.1, 1.0, 0.0), 0.6),
+    ] {
+        let sun = sun(toward, angle);
+        for step in 0..4000 {
+            let (x, z) = (f64::from(step % 80), f64::from(step / 80));
+            let place = on_floor(DVec3::new(x * 0.05 - 2.0, 0.0, z * 0.08 - 2.0));
+            let Height { outer, inner, .. } = edge.height(&place, &sun.disc);
+            let share = share(&sun, &edge, &place);
+            if outer > 1e-9 {
+                assert!((share - 1.0).abs() < 1e-9, "{place:?}: {share}");
+                found[0] += 1;
+            } else if inner < -1e-9 {
+                assert!(share.abs() < 1e-9, "{place:?}: {share}");
+                found[1] += 1;
+            } else if outer < -1e-3 && inner > 1e-3 {
+                assert!(share > 0.0 && share < 1.0, "{place:?}: {share}");
+                found[2] += 1;
+            }
+        }
+    }
+    assert!(found.iter().all(|&count| count > 100), "{found:?}");
+}
+
+#[test]
+fn heights_change_by_no_more_than_the_point_moves() {
+    let edge = Edge::Sphere {
+        center: CENTER,
+        radius: RADIUS,
+    };
+    let sun = sun(DVec3::new(-0.5, 0.6, 0.3), 0.3);
+    let mut before: Option<(DVec3, Height)> = None;
+    for step in 0..2000 {
+        let turn = f64::from(step) * 0.01;
+        let position = DVec3::new(
+            libm::cos(turn),
+            0.3 * libm::sin(0.7 * turn),
+            0.1 * turn - 1.0,
+        );
+        let height = edge.height(&on_floor(position * 3.0), &sun.disc);
+        if let Some((place, of_before)) = before {
+            let moved = (position * 3.0 - place).length() * (1.0 + 1e-9);
+            assert!((height.outer - of_before.outer).abs() <= moved);
+            assert!((height.inner - of_before.inner).abs() <= moved);
+        }
+        before = Some((position * 3.0, height));
+    }
+}
+
+#[test]
+fn all_breaks_of_a_line_are_found() {
+    let edge = Edge::Sphere {
+        center: CENTER,
+        radius: RADIUS,
+    };
+    for angle in [1e-4, 0.01, 0.1] {
+        let sun = sun(DVec3::new(0.2, 1.0, 0.1), angle);
+        // The shadow's middle is at x = −0.1, z = −0.6; lines cross it, pass beside it, and graze its edge.
+        for aside in [0.0, 0.3, 0.6, 0.69, 0.72, 0.9, 1.5] {
+            let height = |place: f64| {
+                let x = -0.55 + 0.8 * place;
+                edge.height(&on_floor(DVec3::new(x, 0.0, aside - 0.6)), &sun.disc)
+            };
+            let knots: [Height; KNOTS] =
+                std::array::from_fn(|index| height(index as f64 / (KNOTS - 1) as f64));
+            let mut breaks = Vec::new();
+            add_breaks(&knots, height, false, &mut breaks);
+            let signs = |place: f64| {
+                let Height { outer, inner, .. } = height(place);
+                [outer < 0.0, inner < 0.0]
+            };
+            let steps = 10_000;
+            let mut changes = 0;
+            for step in 0..steps {
+                let [low, high] = [step, step + 1].map(|step| f64::from(step) / f64::from(steps));
+                let [before, after] = [low, high].map(signs);
+                let changed = before
+                    .iter()
+                    .zip(after)
+                    .filter(|(one, other)| **one != *other);
+                changes += changed.count();
+            }
+            assert_eq!(breaks.len(), changes, "{angle} {aside}: {breaks:?}");
+            for place in breaks {
+                let Height { outer, inner, wide } = height(place);
+                assert!(outer.abs().min(inner.abs()) <= 0.011 * wide);
+            }
+        }
+    }
+}
