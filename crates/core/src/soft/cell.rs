@@ -83,7 +83,7 @@ impl Default for Cells {
 
 /// Gauss's rule for functions from 0 to 1 that may go with the square root of the distance from either end: with
 /// x = s² (3 − 2 s) they are smooth in s.
-pub(crate) fn smooth_rule<const NODES: usize>() -> [(f64, f64); NODES] {
+fn smooth_rule<const NODES: usize>() -> [(f64, f64); NODES] {
     let JacobiRule { nodes, weights } = JacobiRule::<NODES>::new(0.0);
     std::array::from_fn(|index| {
         let s = nodes[index];

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::candidate::Candidate;
 use super::edges::Height;
-use super::point::Occluders;
+use super::point::{Occluders, SurfacePoint};
 use super::sun::Sun;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
@@ -77,6 +77,17 @@ impl Extent {
             turn: 2.0 * around / radius,
             to_eye: -axis,
             normal: (middle - center).normalize(),
+        }
+    }
+
+    /// The point in its middle, which stands for a point of the sphere.
+    pub(crate) fn point(&self, sphere: usize) -> SurfacePoint {
+        SurfacePoint {
+            position: self.middle,
+            normal: self.normal,
+            shading: self.normal,
+            to_eye: self.to_eye,
+            sphere,
         }
     }
 

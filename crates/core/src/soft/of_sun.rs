@@ -109,13 +109,7 @@ impl OfSun<'_> {
             let has_highlight = self.world.material(candidate.sphere).highlight.is_some();
             edges.push(Edge::Horizon { has_highlight });
         }
-        let middle = SurfacePoint {
-            position: extent.middle,
-            normal: extent.normal,
-            shading: extent.normal,
-            to_eye: extent.to_eye,
-            sphere: candidate.sphere,
-        };
+        let middle = extent.point(candidate.sphere);
         for caster in &self.casters[candidate.number] {
             let height = caster.height(&middle, disc);
             if height.inner < -extent.around {
@@ -166,13 +160,7 @@ impl Light for OfSun<'_> {
         if !self.find_edges(candidate, &extent, number) {
             return Contents::Dark;
         }
-        let middle = SurfacePoint {
-            position: extent.middle,
-            normal: extent.normal,
-            shading: extent.normal,
-            to_eye: extent.to_eye,
-            sphere: candidate.sphere,
-        };
+        let middle = extent.point(candidate.sphere);
         let shading = self.shading(candidate);
         let (mut doubt, mut missed) = (0.0_f64, 0.0_f64);
         let mut is_narrow = false;
