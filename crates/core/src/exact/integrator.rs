@@ -26,7 +26,8 @@ use crate::picture::pixel::{Method, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 use crate::sampling::Supersampling;
 use crate::search::view_index::ViewIndex;
-use crate::soft::picture::{self as soft, Soft};
+use crate::soft::picture as soft;
+use crate::soft::scene::Soft;
 
 mod crowd_samples;
 mod range;

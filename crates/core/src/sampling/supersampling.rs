@@ -24,7 +24,8 @@ use crate::picture::quantities::GeometrySettings;
 use crate::picture::tile::{Tile, TileLight};
 use crate::search::shadow_cells::ShadowCells;
 use crate::search::view_index::ViewIndex;
-use crate::soft::picture::{self as soft, Soft};
+use crate::soft::picture as soft;
+use crate::soft::scene::Soft;
 
 /// The number of balls in a tile from which on they are: few of eight pixels beside each other see the same ball then.
 const CROWD: usize = 16;

@@ -15,6 +15,7 @@ use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::{LightPart, World};
+use crate::soft::patches::Patches;
 
 /// Lengths whose squares are far from over- and underflow.
 const MODERATE: Range<f64> = 1e-35..1e35;
@@ -44,6 +45,8 @@ pub(crate) struct Visibility<'world> {
     outer: Option<Arc<OuterSpheres<'world>>>,
     /// Those of the spheres that are left out in it.
     left_out: Option<Arc<Nested>>,
+    /// What is known of the light of a sky.
+    patches: Arc<Patches>,
 }
 
 /// A world without the spheres that lie inside of others.
@@ -126,6 +129,7 @@ impl<'world> Visibility<'world> {
             extent,
             outer: None,
             left_out: None,
+            patches: Arc::default(),
         };
         unlit.outer = unlit.outer_spheres().map(Arc::new);
         unlit.with_lights(world, world.lights.as_slice().into())
@@ -139,6 +143,7 @@ impl<'world> Visibility<'world> {
         let visibility = Self {
             hierarchy: Some(Arc::new(hierarchy)),
             left_out: Some(Arc::clone(&nested)),
+            patches: Arc::default(),
             ..self.clone()
         };
         Some(OuterSpheres { nested, visibility })
@@ -164,6 +169,11 @@ impl<'world> Visibility<'world> {
     pub(super) fn leaves_out(&self, sphere: usize) -> bool {
         let nested = self.left_out.as_deref();
         nested.is_some_and(|nested| nested.is_nested[sphere])
+    }
+
+    /// What is known of the light of its sky.
+    pub(crate) fn patches(&self) -> &Patches {
+        &self.patches
     }
 
     /// The same world under other lights, as many as it has.

@@ -153,31 +153,3 @@ pub(crate) fn heights(
     });
     heights
 }
-
-/// Adds the heights between which the order of what is seen along lines changes: where contours and seams cross each other.
-pub(crate) fn add_crossings(heights: &mut Vec<Height>, mut pattern: impl FnMut(f64) -> usize) {
-    /// Lines that are compared, in parts of a strip.
-    const LINES: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
-    const HALVINGS: u32 = 24;
-    for index in 1..heights.len() {
-        let (low, high) = (heights[index - 1].v, heights[index].v);
-        let at = LINES.map(|place| low + (high - low) * place);
-        let patterns = at.map(&mut pattern);
-        for line in 1..LINES.len() {
-            if patterns[line - 1] == patterns[line] {
-                continue;
-            }
-            let (mut below, mut above) = (at[line - 1], at[line]);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (below + above);
-                if pattern(middle) == patterns[line - 1] {
-                    below = middle;
-                } else {
-                    above = middle;
-                }
-            }
-            heights.push(Height::crossing(0.5 * (below + above)));
-        }
-    }
-    heights.sort_unstable_by(|one, other| one.v.total_cmp(&other.v));
-}

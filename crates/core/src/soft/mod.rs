@@ -10,12 +10,14 @@
 //! | `point.rs`, `sun.rs`, `sky.rs`, `light.rs` | points, and the light at a point |
 //! | `candidate.rs`, `seam.rs`, `line.rs`, `heights.rs` | what is seen along a line of the picture, and between which heights that changes smoothly |
 //! | `rectangle.rs`, `cell.rs` | a pixel or a part of one, and the average over it |
-//! | `piece.rs` | of light that is costly: from few points of each sphere |
-//! | `curve.rs`, `edges.rs`, `strips.rs`, `of_sun.rs` | of a sun's light: along lines, on which the places are found where spheres begin to hide it |
+//! | `curve.rs`, `rule.rs`, `strips.rs` | the same along lines |
+//! | `edges.rs`, `of_sun.rs` | a sun's light in a pixel: the places on a line are found where spheres begin to hide it |
+//! | `square.rs`, `hemisphere.rs`, `gather.rs`, `patch.rs`, `patches.rs`, `of_sky.rs` | a sky's light in a pixel: from points of each sphere that pixels and frames have in common |
 //! | `doubt.rs` | changes of light that points of a cell may miss |
-//! | `picture.rs` | the averages over pixels, by samples or to a tolerance |
+//! | `scene.rs`, `picture.rs` | the averages over pixels, by samples or to a tolerance |
 
 mod arcs;
+mod bodies;
 mod candidate;
 mod cap;
 mod cell;
@@ -23,16 +25,24 @@ mod circles;
 mod curve;
 mod doubt;
 mod edges;
+mod gather;
 mod heights;
+mod hemisphere;
 mod light;
 mod line;
+mod list;
+mod of_sky;
 mod of_sun;
+mod patch;
+pub(crate) mod patches;
 pub(crate) mod picture;
-mod piece;
 mod point;
 mod rectangle;
+mod rule;
+pub(crate) mod scene;
 mod seam;
 mod sky;
+mod square;
 mod strips;
 mod sun;
 mod visible;

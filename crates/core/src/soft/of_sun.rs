@@ -8,7 +8,8 @@ use super::doubt::{Extent, of_bumps, of_highlight, of_penumbra, of_speck, of_ter
 use super::edges::{Edge, KNOTS, add_breaks};
 use super::light::sun_light;
 use super::point::SurfacePoint;
-use super::rectangle::{Along, Cell, Contents, Light};
+use super::rectangle::{Along, Cell, Contents, Light, Lit};
+use super::rule::integral_along;
 use super::sun::Sun;
 use super::visible::Hidden;
 use crate::light::shading_normal::ShadingNormal;
@@ -16,21 +17,6 @@ use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::world::World;
-
-/// Gauss's rule with 3 nodes from −1 to 1: nodes, their weights, and those in Kronrod's with 7.
-const GAUSS: [[f64; 3]; 3] = [
-    [-0.774_596_669_241_483_4, 5.0 / 9.0, 0.268_488_089_868_333_4],
-    [0.0, 8.0 / 9.0, 0.450_916_538_658_474_14],
-    [0.774_596_669_241_483_4, 5.0 / 9.0, 0.268_488_089_868_333_4],
-];
-
-/// The other nodes of Kronrod's rule.
-const KRONROD: [[f64; 2]; 4] = [
-    [-0.960_491_268_708_020_3, 0.104_656_226_026_467_27],
-    [-0.434_243_749_346_802_6, 0.401_397_414_775_962_2],
-    [0.434_243_749_346_802_6, 0.401_397_414_775_962_2],
-    [0.960_491_268_708_020_3, 0.104_656_226_026_467_27],
-];
 
 /// What a thread keeps for suns.
 #[derive(Debug, Default)]
@@ -59,14 +45,14 @@ pub(crate) fn strongest_highlight(world: &World) -> f64 {
     strengths.fold(0.0, |most, one| most.max(one.strength))
 }
 
+/// A curve costs about as much as so many points.
+const POINTS_OF_CURVE: u64 = 4;
+
 /// Half of a penumbra's width, in parts of the size of a cell, below which its edges are looked for.
 const NARROW: f64 = 3.0;
 
 /// Points of a curve are taken to be no further from its middle than so many times the furthest knot. Not proved.
 const REACH: f64 = 1.25;
-
-/// The claim of a part of a curve, in parts of the second difference of its nodes. Not tuned.
-const OF_BEND: f64 = 0.03;
 
 impl OfSun<'_> {
     fn place(&self, candidate: &Candidate, shading: &ShadingNormal, at: DVec2) -> SurfacePoint {
@@ -124,10 +110,13 @@ impl OfSun<'_> {
 }
 
 impl Light for OfSun<'_> {
-    fn at(&mut self, candidate: &Candidate, at: DVec2) -> Option<Color> {
+    fn at(&mut self, candidate: &Candidate, at: DVec2) -> Option<Lit> {
         let shading = self.shading(candidate);
         let place = self.place(candidate, &shading, at);
-        Some(self.light(&place, 0))
+        Some(Lit {
+            light: self.light(&place, 0),
+            error: 0.0,
+        })
     }
 
     fn is_shared(&self, candidate: &Candidate) -> bool {
@@ -247,6 +236,7 @@ impl Light for OfSun<'_> {
         breaks.sort_unstable_by(f64::total_cmp);
         let mut along = Along {
             breaks: breaks.len(),
+            points: POINTS_OF_CURVE,
             ..Along::default()
         };
         for ends in breaks.windows(2) {
@@ -254,34 +244,13 @@ impl Light for OfSun<'_> {
             if length <= 0.0 {
                 continue;
             }
-            let at = |node: f64| ends[0] + length * (0.5 + 0.5 * node);
-            let mut light_at = |node: f64| {
-                let place = self.place(candidate, &shading, curve.at(at(node)));
-                self.light(&place, number)
-            };
-            let weight =
-                |node: f64, weight: f64| 0.5 * weight * length * curve.along.at(at(node)).1;
-            let of_nodes = GAUSS.map(|[node, ..]| light_at(node));
-            let nodes = || GAUSS.iter().zip(of_nodes);
-            let rough =
-                nodes().map(|([node, of_gauss, _], light)| light * weight(*node, *of_gauss));
-            let rough: Color = rough.sum();
-            let bend = of_nodes[0] - 2.0 * of_nodes[1] + of_nodes[2];
-            let bend = bend.abs().max_element() * OF_BEND;
-            let part = curve.along.at(ends[1]).0 - curve.along.at(ends[0]).0;
-            if bend <= limit {
-                along.integral += rough;
-                along.error += bend * part;
-                continue;
-            }
-            let known =
-                nodes().map(|([node, _, of_kronrod], light)| light * weight(*node, *of_kronrod));
-            let mut fine: Color = known.sum();
-            for [node, of_kronrod] in KRONROD {
-                fine += light_at(node) * weight(node, of_kronrod);
-            }
-            along.integral += fine;
-            along.error += (fine - rough).abs().max_element();
+            integral_along(curve, [ends[0], ends[1]], limit, &mut along, |at| {
+                let place = self.place(candidate, &shading, at);
+                Lit {
+                    light: self.light(&place, number),
+                    error: 0.0,
+                }
+            });
         }
         self.memory.breaks = breaks;
         along

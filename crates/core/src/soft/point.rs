@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use super::candidate::Candidate;
-use super::cap::Cap;
 use crate::model::camera::Projection;
 use crate::model::sphere::Sphere;
 use crate::search::beyond::Beyond;
@@ -59,22 +58,6 @@ pub(crate) struct Occluders<'world> {
 }
 
 impl Occluders<'_> {
-    /// Calls `visit` with the caps of all spheres but the point's own that may lie in some directions. A sphere that
-    /// coincides with the own one hides nothing.
-    pub(crate) fn for_each(
-        &self,
-        point: &SurfacePoint,
-        beyond: &Beyond,
-        mut visit: impl FnMut(Cap),
-    ) {
-        self.for_each_sphere(point.sphere, beyond, |sphere| {
-            visit(Cap::of_sphere(
-                sphere.center() - point.position,
-                sphere.radius(),
-            ));
-        });
-    }
-
     /// Calls `visit` with all spheres that may lie in some directions and hide light from one of them: not with those inside
     /// of it, nor with those that coincide with it but for rounding.
     pub(crate) fn for_each_sphere(
@@ -83,14 +66,17 @@ impl Occluders<'_> {
         beyond: &Beyond,
         mut visit: impl FnMut(&Sphere),
     ) {
-        let own = &self.spheres[but];
         self.hierarchy
             .for_each_beyond(self.spheres, beyond, |index| {
-                let sphere = &self.spheres[index];
-                if index != but && !is_within(sphere, own) {
-                    visit(sphere);
+                if self.may_hide(index, but) {
+                    visit(&self.spheres[index]);
                 }
             });
+    }
+
+    /// True if a sphere may hide light from another one.
+    pub(crate) fn may_hide(&self, sphere: usize, from: usize) -> bool {
+        sphere != from && !is_within(&self.spheres[sphere], &self.spheres[from])
     }
 }
 

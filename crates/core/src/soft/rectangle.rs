@@ -16,7 +16,7 @@ pub(crate) struct Cell {
 /// The light of spheres at places of a picture.
 pub(crate) trait Light {
     /// The light of a candidate's sphere; none where the ray misses it.
-    fn at(&mut self, candidate: &Candidate, place: DVec2) -> Option<Color>;
+    fn at(&mut self, candidate: &Candidate, place: DVec2) -> Option<Lit>;
 
     /// A bound or an estimate of the part of the light of a cell that may change without being noticed between points that
     /// are some part of the cell apart.
@@ -32,8 +32,11 @@ pub(crate) trait Light {
     fn is_shared(&self, candidate: &Candidate) -> bool;
 
     /// What the light on a candidate is like in a cell. Later calls speak of this cell, and give the same `number`.
-    fn contents(&mut self, _candidate: &Candidate, _cell: &Cell, _number: usize) -> Contents {
-        Contents::Unknown
+    fn contents(&mut self, candidate: &Candidate, cell: &Cell, number: usize) -> Contents;
+
+    /// True if light may go with the square root of the distance from seams.
+    fn has_roots_at_seams(&self) -> bool {
+        false
     }
 
     /// Adds the places on a curve, from 0 to 1, at which light is not smooth. Returns false if there is no light on it.
@@ -48,17 +51,22 @@ pub(crate) trait Light {
     }
 
     /// The integral along a curve; the limit is for its error in parts of the curve's length.
-    fn along(
-        &mut self,
-        _candidate: &Candidate,
-        _curve: &Curve,
-        _number: usize,
-        _limit: f64,
-    ) -> Along {
-        Along {
-            error: self.brightest(),
-            ..Along::default()
-        }
+    fn along(&mut self, candidate: &Candidate, curve: &Curve, number: usize, limit: f64) -> Along;
+}
+
+/// Light at a place.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Lit {
+    pub(crate) light: Color,
+    /// An estimate of its error.
+    pub(crate) error: f64,
+}
+
+impl Lit {
+    /// Adds another light times a weight.
+    pub(super) fn add(&mut self, other: Self, weight: f64) {
+        self.light += other.light * weight;
+        self.error += other.error * weight;
     }
 }
 
@@ -70,13 +78,13 @@ pub(crate) struct Along {
     pub(crate) error: f64,
     /// The number of places at which light is not smooth.
     pub(crate) breaks: usize,
+    /// What it costs, in points.
+    pub(crate) points: u64,
 }
 
 /// What light is like in a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Contents {
-    /// It is known at points alone.
-    Unknown,
     /// There is none.
     Dark,
     /// It is smooth but for changes of a part of the brightest light.

@@ -86,9 +86,6 @@ const HALVINGS: u32 = 8;
 /// How far points of lines are apart, in parts of the cell.
 const SPACING: f64 = 0.25;
 
-/// A curve costs about as much as so many points.
-const POINTS_OF_CURVE: u64 = 4;
-
 /// The claim of a rule, in parts of its difference from the coarser one. Not tuned.
 const OF_RULES: f64 = 1.0;
 
@@ -311,9 +308,13 @@ impl Strips {
                 continue;
             }
             let candidate = &candidates[number];
-            let curve = Curve::new(false, v, [*begin, *end], candidate, projection);
-            self.points += POINTS_OF_CURVE;
+            let mut curve = Curve::new(false, v, [*begin, *end], candidate, projection);
+            if light.has_roots_at_seams() {
+                curve.along.is_root[0] |= *begin > cell.u[0];
+                curve.along.is_root[1] |= *end < cell.u[1];
+            }
             let along = light.along(candidate, &curve, number, scene.limit);
+            self.points += along.points;
             line.sum += along.integral;
             line.error += along.error;
             line.breaks += along.breaks;

@@ -6,14 +6,18 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 
 use super::arcs::CoveredArcs;
+use super::bodies::Bodies;
 use super::cap::{Cap, Cover, Frame, Meeting};
 use super::circles::{BLOCK, Circles};
+use super::hemisphere::Hemisphere;
+use super::point::SurfacePoint;
 use crate::numeric::bits::set_bits;
 
 /// The caps that hide directions from a point, and memory to work in.
 #[derive(Debug, Default)]
 pub(crate) struct Hidden {
     caps: Vec<Cap>,
+    found: Vec<Cap>,
     /// The caps that were left, side by side.
     circles: Circles,
     arcs: CoveredArcs,
@@ -35,6 +39,28 @@ impl Hidden {
 
     pub(crate) fn add(&mut self, cap: Cap) {
         self.caps.push(cap);
+    }
+
+    /// Adds the caps of some spheres seen from a point, but for those of which it is known that others hide them. The sooner
+    /// large ones come, the fewer are added.
+    pub(crate) fn add_bodies(&mut self, bodies: &Bodies, point: &SurfacePoint) {
+        let mut caps = std::mem::take(&mut self.found);
+        caps.clear();
+        bodies.caps(point.position, point.normal, &mut caps);
+        let mut above = Hemisphere::new(point.normal, 0.0);
+        self.circles.clear();
+        for cap in &caps {
+            if self.caps.len() < BLOCK {
+                self.circles.push(cap);
+            } else if self.circles.block(cap, 0).around != 0 {
+                continue;
+            }
+            if !above.is_hidden(cap) && cap.axis.dot(point.shading) > -cap.sine {
+                above.hide(cap);
+                self.caps.push(*cap);
+            }
+        }
+        self.found = caps;
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -117,6 +143,7 @@ impl Hidden {
             caps,
             circles,
             arcs,
+            ..
         } = self;
         let cap = caps[index];
         let frame = cap.frame();

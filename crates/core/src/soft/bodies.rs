@@ -1,0 +1,105 @@
+//! The spheres that may hide light from some points, side by side.
+
+use fearless_simd::{Level, Simd, dispatch};
+use glam::DVec3;
+
+use super::cap::Cap;
+use crate::model::sphere::Sphere;
+use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::{LANES, Lanes as _, f64x8};
+
+/// Spheres that may hide light.
+#[derive(Clone, Debug)]
+pub(crate) struct Bodies {
+    groups: Vec<Group>,
+    count: usize,
+    /// The instructions that the processor has.
+    level: Level,
+}
+
+/// Eight spheres; those that are missing are infinitely far below any surface.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Group {
+    center: [[f64; LANES]; 3],
+    radius: [f64; LANES],
+}
+
+impl Default for Bodies {
+    fn default() -> Self {
+        Self {
+            groups: Vec::new(),
+            count: 0,
+            level: Level::new(),
+        }
+    }
+}
+
+impl Bodies {
+    pub(crate) fn clear(&mut self) {
+        self.groups.clear();
+        self.count = 0;
+    }
+
+    pub(crate) fn push(&mut self, sphere: &Sphere) {
+        let lane = self.count % LANES;
+        if lane == 0 {
+            self.groups.push(Group {
+                center: [[0.0; LANES]; 3],
+                radius: [f64::NEG_INFINITY; LANES],
+            });
+        }
+        if let Some(last) = self.groups.last_mut() {
+            for (lanes, number) in last.center.iter_mut().zip(sphere.center().to_array()) {
+                lanes[lane] = number;
+            }
+            last.radius[lane] = sphere.radius();
+        }
+        self.count += 1;
+    }
+
+    /// Adds the caps that they hide from a point above the plane across a unit normal, in their order.
+    pub(crate) fn caps(&self, position: DVec3, normal: DVec3, caps: &mut Vec<Cap>) {
+        dispatch!(self.level, simd => all_caps(simd, &self.groups, (position, normal), caps));
+    }
+}
+
+/// The same by the formulas of [`Cap::of_sphere`].
+#[inline(always)]
+fn all_caps<S: Simd>(
+    simd: S,
+    groups: &[Group],
+    (position, normal): (DVec3, DVec3),
+    caps: &mut Vec<Cap>,
+) {
+    let from = position.to_array().map(|number| f64x8::splat(simd, number));
+    let up = normal.to_array().map(|number| f64x8::splat(simd, number));
+    let one = f64x8::splat(simd, 1.0);
+    let zero = f64x8::splat(simd, 0.0);
+    for group in groups {
+        let x = f64x8::from_array(simd, group.center[0]) - from[0];
+        let y = f64x8::from_array(simd, group.center[1]) - from[1];
+        let z = f64x8::from_array(simd, group.center[2]) - from[2];
+        let radius = f64x8::from_array(simd, group.radius);
+        let height = x * up[0] + y * up[1] + z * up[2];
+        let above = (height + radius).simd_gt(0.0).to_bitmask();
+        if above == 0 {
+            continue;
+        }
+        let distance = (x * x + y * y + z * z).sqrt();
+        let inverse = distance.reciprocal();
+        let sine = (radius * inverse).min(one);
+        let apart = (distance - radius).max(zero);
+        let cosine = (apart * (distance + radius)).sqrt() * inverse;
+        let versine = sine * sine * (cosine + 1.0).reciprocal();
+        let (x, y, z) = (x * inverse, y * inverse, z * inverse);
+        for lane in set_bits(above) {
+            caps.push(Cap {
+                axis: DVec3::new(x[lane], y[lane], z[lane]),
+                sine: sine[lane],
+                cosine: cosine[lane],
+                versine: versine[lane],
+            });
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! The spheres that may hide light from a part of a surface.
+
+use glam::DVec3;
+
+use super::cap::Cap;
+use super::hemisphere::Hemisphere;
+use super::point::Occluders;
+use crate::search::hierarchy::BoxTest;
+use crate::search::hierarchy::boxes::Boxes;
+use crate::search::hierarchy::is_sphere;
+use crate::search::hierarchy::order::WIDTH;
+
+/// A part of a surface: points within a distance of one, whose normals are within an angle of one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Neighborhood {
+    pub(crate) middle: DVec3,
+    pub(crate) around: f64,
+    pub(crate) normal: DVec3,
+    pub(crate) turn: f64,
+}
+
+/// What rounding may move a point by, in parts of its distance.
+const SLACK: f64 = 1e-12;
+
+impl Neighborhood {
+    /// True unless a ball is below the horizons of all points.
+    fn may_be_above(&self, center: DVec3, radius: f64) -> bool {
+        let to_center = center - self.middle;
+        let distance = to_center.length();
+        let slack = SLACK * (distance + self.middle.abs().max_element());
+        to_center.dot(self.normal) + radius + self.around + self.turn * distance + slack > 0.0
+    }
+
+    /// The directions from any point toward a ball; none if a point may be inside of it, or almost.
+    fn cap_from_any(&self, center: DVec3, radius: f64) -> Option<Cap> {
+        let to_center = center - self.middle;
+        let reach = radius + self.around + SLACK * self.middle.abs().max_element();
+        (to_center.length() > 1.000_001 * reach).then(|| Cap::of_sphere(to_center, reach))
+    }
+
+    /// Directions that lie toward a ball from all points.
+    fn cap_from_all(&self, center: DVec3, radius: f64) -> Option<Cap> {
+        let reach = radius - self.around - SLACK * self.middle.abs().max_element();
+        (reach > 0.0).then(|| Cap::of_sphere(center - self.middle, reach))
+    }
+}
+
+/// Finds all spheres that hide light from some point of a part of a sphere, and perhaps others: not those of which it is
+/// known that others hide them from all of its points. Those that look largest come first.
+pub(crate) fn gather(
+    occluders: &Occluders<'_>,
+    own: usize,
+    of: &Neighborhood,
+    found: &mut Vec<u32>,
+) {
+    let nothing = Hemisphere::new(of.normal, of.turn);
+    let mut hidden = nothing.clone();
+    let mut near: Vec<(f64, u32)> = Vec::new();
+    let hierarchy = occluders.hierarchy;
+    // Both closures of the search look at what is hidden.
+    let shared = std::cell::RefCell::new((&mut hidden, &mut near));
+    hierarchy.any(
+        |boxes| test(of, &shared.borrow().0, boxes),
+        |group| {
+            let (hidden, near) = &mut *shared.borrow_mut();
+            for &index in hierarchy.indices(group) {
+                if !is_sphere(index) || !occluders.may_hide(index as usize, own) {
+                    continue;
+                }
+                let sphere = &occluders.spheres[index as usize];
+                let (center, radius) = (sphere.center(), sphere.radius());
+                if !of.may_be_above(center, radius) {
+                    continue;
+                }
+                let widest = of.cap_from_any(center, radius);
+                if let Some(widest) = &widest {
+                    if hidden.is_hidden(widest) {
+                        continue;
+                    }
+                    if let Some(narrowest) = of.cap_from_all(center, radius) {
+                        hidden.hide(&narrowest);
+                    }
+                }
+                near.push(((center - of.middle).length() / radius, index));
+            }
+            false
+        },
+    );
+    near.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    let mut hidden = nothing;
+    found.clear();
+    for (_, index) in near {
+        let sphere = &occluders.spheres[index as usize];
+        let (center, radius) = (sphere.center(), sphere.radius());
+        if let Some(widest) = of.cap_from_any(center, radius) {
+            if hidden.is_hidden(&widest) {
+                continue;
+            }
+            if let Some(narrowest) = of.cap_from_all(center, radius) {
+                hidden.hide(&narrowest);
+            }
+        }
+        found.push(index);
+    }
+}
+
+/// The boxes of which something may be seen.
+fn test(of: &Neighborhood, hidden: &Hemisphere, boxes: &Boxes) -> BoxTest {
+    let mut tested = BoxTest {
+        may: 0,
+        keys: [0.0; WIDTH],
+    };
+    for place in 0..WIDTH {
+        let corner = |of: &[[f32; WIDTH]; 3]| {
+            DVec3::new(
+                of[0][place].into(),
+                of[1][place].into(),
+                of[2][place].into(),
+            )
+        };
+        let (low, high) = (corner(&boxes.low), corner(&boxes.high));
+        let (center, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
+        tested.keys[place] = (center - of.middle).length() - radius;
+        // A box that single precision cannot hold reaches to infinity.
+        let may = !radius.is_finite()
+            || of.may_be_above(center, radius)
+                && of
+                    .cap_from_any(center, radius)
+                    .is_none_or(|cap| !hidden.is_hidden(&cap));
+        tested.may |= u8::from(may) << place;
+    }
+    tested
+}

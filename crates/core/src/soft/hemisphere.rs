@@ -1,0 +1,137 @@
+//! Which directions above a part of a surface are hidden, on a grid.
+//!
+//! Directions are projected from the one straight down onto the plane of the surface: caps become discs. The cells of a grid
+//! are hidden if one cap hides all of their directions, or if they lie below the horizon. So what lies behind *several* caps
+//! is known to be hidden, but for a margin of cells along their circles.
+
+use glam::{DVec2, DVec3};
+
+use super::cap::{Cap, Frame};
+
+/// Cells along a side: the bits of a number.
+const SIDE: usize = 64;
+
+/// What rounding may move a circle by.
+const SLACK: f64 = 1e-9;
+
+/// The directions above a part of a surface.
+#[derive(Clone, Debug)]
+pub(crate) struct Hemisphere {
+    frame: Frame,
+    normal: DVec3,
+    /// Half of the grid's side.
+    reach: f64,
+    /// The cells that are hidden, as bits of a row.
+    rows: [u64; SIDE],
+}
+
+/// A disc of the grid, in cells.
+#[derive(Clone, Copy, Debug)]
+struct Disc {
+    center: DVec2,
+    radius: f64,
+}
+
+/// The bits of a row from the cell of a place to before that of another.
+fn bits(from: f64, to: f64) -> u64 {
+    let side = SIDE as f64;
+    let (from, to) = (from.clamp(0.0, side) as u32, to.clamp(0.0, side) as u32);
+    if from >= to {
+        return 0;
+    }
+    (u64::MAX >> (SIDE as u32 - (to - from))) << from
+}
+
+impl Hemisphere {
+    /// The directions above all surfaces whose normals are within an angle of one, of which nothing is hidden.
+    pub(crate) fn new(normal: DVec3, turn: f64) -> Self {
+        /// Normals that turn by more are taken to turn by this angle: more is hidden then than is said.
+        const MOST: f64 = 1.2;
+        // The directions of a sine above −sin(turn) lie in a disc of this radius.
+        let reach = libm::tan(std::f64::consts::FRAC_PI_4 + 0.5 * turn.min(MOST)) * (1.0 + SLACK);
+        let mut hemisphere = Self {
+            frame: Cap::below(-normal).frame(),
+            normal,
+            reach,
+            rows: [0; SIDE],
+        };
+        if turn < MOST {
+            let middle = 0.5 * SIDE as f64;
+            let above = Disc {
+                center: DVec2::splat(middle),
+                radius: middle,
+            };
+            hemisphere.rows = std::array::from_fn(|row| !above.touched(row));
+        }
+        hemisphere
+    }
+
+    /// The disc of a cap that is made wider, or narrower, by an angle that rounding may cause; none if it is too wide.
+    fn disc(&self, cap: &Cap, slack: f64) -> Option<Disc> {
+        let height = self.normal.dot(cap.axis) + cap.cosine;
+        // A larger cap might hold the direction straight down.
+        if height < 1e-2 {
+            return None;
+        }
+        let cells = 0.5 * SIDE as f64 / self.reach;
+        let toward = DVec2::new(cap.axis.dot(self.frame.x), cap.axis.dot(self.frame.y));
+        let center = (toward / height + self.reach) * cells;
+        let radius = cap.sine / height * cells + slack * (1.0 + center.length()) / height;
+        Some(Disc { center, radius })
+    }
+
+    /// Hides the directions within a cap.
+    pub(crate) fn hide(&mut self, cap: &Cap) {
+        if let Some(disc) = self.disc(cap, -SLACK) {
+            for row in disc.rows() {
+                self.rows[row] |= disc.filled(row);
+            }
+        }
+    }
+
+    /// True if all directions within a cap are hidden.
+    pub(crate) fn is_hidden(&self, cap: &Cap) -> bool {
+        match self.disc(cap, SLACK) {
+            Some(disc) => disc
+                .rows()
+                .all(|row| disc.touched(row) & !self.rows[row] == 0),
+            None => false,
+        }
+    }
+}
+
+impl Disc {
+    /// The rows that it may touch.
+    fn rows(&self) -> std::ops::Range<usize> {
+        let side = SIDE as f64;
+        let low = (self.center.y - self.radius).clamp(0.0, side);
+        let high = (self.center.y + self.radius + 1.0).clamp(0.0, side);
+        low as usize..high as usize
+    }
+
+    /// Half of its width at a distance from its center.
+    fn half(&self, apart: f64) -> Option<f64> {
+        let square = self.radius * self.radius - apart * apart;
+        (square >= 0.0).then(|| square.sqrt())
+    }
+
+    /// The cells of a row that it may touch.
+    fn touched(&self, row: usize) -> u64 {
+        let low = row as f64 - self.center.y;
+        let apart = low.max(-1.0 - low).max(0.0);
+        match self.half(apart) {
+            Some(half) => bits(self.center.x - half, self.center.x + half + 1.0),
+            None => 0,
+        }
+    }
+
+    /// The cells of a row that lie inside of it.
+    fn filled(&self, row: usize) -> u64 {
+        let low = row as f64 - self.center.y;
+        let apart = low.abs().max((low + 1.0).abs());
+        match self.half(apart) {
+            Some(half) => bits(self.center.x - half + 1.0, self.center.x + half),
+            None => 0,
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! The light of a sky in one pixel.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::candidate::Candidate;
+use super::curve::Curve;
+use super::doubt::{Extent, of_bumps, of_small_spheres};
+use super::list::List;
+use super::patch::Patch;
+use super::patches::Patches;
+use super::point::{Occluders, SurfacePoint};
+use super::rectangle::{Along, Cell, Contents, Light, Lit};
+use super::rule::integral_along;
+use super::scene::Soft;
+use super::sky::{Shares, light_of, shares, sky_light};
+use super::square::{Node, Square, point};
+use super::visible::Hidden;
+use crate::light::shading_normal::ShadingNormal;
+use crate::model::camera::Projection;
+use crate::model::roughness::PixelKey;
+use crate::model::sky::Sky;
+
+/// Squares of which a thread knows the patch, and the spheres that may hide light from them.
+const KNOWN: usize = 1 << 10;
+const KNOWN_LISTS: usize = 1 << 7;
+
+/// What a thread keeps for skies.
+#[derive(Debug)]
+pub(crate) struct SkyMemory {
+    patches: Vec<Option<(Square, Arc<Patch>)>>,
+    lists: Vec<Option<(Square, List)>>,
+}
+
+impl Default for SkyMemory {
+    fn default() -> Self {
+        Self {
+            patches: vec![None; KNOWN],
+            lists: vec![None; KNOWN_LISTS],
+        }
+    }
+}
+
+impl SkyMemory {
+    /// Forgets another world.
+    pub(crate) fn begin(&mut self) {
+        self.patches.fill(None);
+        self.lists.fill(None);
+    }
+}
+
+/// The width of the squares that are tried first, in pixels and in radians.
+const WIDEST: f64 = 16.0;
+const WIDEST_ANGLE: f64 = 0.8;
+
+/// That of the last ones, in parts of a cell. Not tuned.
+const NARROWEST: f64 = 0.25;
+
+/// What a point may claim in a pixel, and in parts of a pixel that claims too much, in parts of the tolerance. Not tuned.
+const OF_WHOLE: f64 = 1.0;
+const OF_PARTS: f64 = 0.5;
+
+/// The light of a sky in one pixel.
+pub(crate) struct OfSky<'a, 'scene> {
+    pub(crate) soft: &'a Soft<'scene>,
+    pub(crate) sky: &'a Sky,
+    pub(crate) patches: &'a Patches,
+    pub(crate) key: PixelKey,
+    pub(crate) projection: Projection,
+    /// The side of a pixel, on the plane at the distance 1 or in the units of candidates, and that of the cell.
+    pub(crate) pixel: f64,
+    pub(crate) side: f64,
+    /// The error that is allowed of patches.
+    pub(crate) allowed: f64,
+    pub(crate) memory: &'a mut SkyMemory,
+    pub(crate) hidden: &'a mut Hidden,
+}
+
+impl OfSky<'_, '_> {
+    fn shading(&self, candidate: &Candidate) -> ShadingNormal {
+        ShadingNormal::new(self.soft.world, candidate.sphere, self.key)
+    }
+
+    /// Calls `act` with the spheres that may hide light from a square.
+    fn with_list<T>(
+        &mut self,
+        square: &Square,
+        occluders: &Occluders<'_>,
+        act: impl FnOnce(&List, &mut Hidden) -> T,
+    ) -> T {
+        let known = &mut self.memory.lists[square.hash() as usize % KNOWN_LISTS];
+        let list = match known {
+            Some((of, list)) if of == square => list,
+            _ => {
+                let mut list = known.take().map(|(_, list)| list).unwrap_or_default();
+                list.fill(square, occluders);
+                &mut known.insert((*square, list)).1
+            }
+        };
+        act(list, self.hidden)
+    }
+
+    /// The light at a node.
+    fn node(&mut self, node: &Node, occluders: &Occluders<'_>) -> Shares {
+        let patches = self.patches;
+        patches.nodes.of(node, node.hash(), || {
+            let home = node.home();
+            let (own, normal) = (home.sphere as usize, node.normal());
+            let point = SurfacePoint {
+                position: point(&occluders.spheres[own], normal),
+                normal,
+                shading: normal,
+                to_eye: normal,
+                sphere: own,
+            };
+            let sky = self.sky;
+            self.with_list(&home, occluders, |list, hidden| {
+                shares(sky, &point, &list.bodies, hidden)
+            })
+        })
+    }
+
+    /// The patch of a square; none in a world without shadows.
+    fn patch(&mut self, square: &Square) -> Option<Arc<Patch>> {
+        let occluders = self.soft.occluders()?;
+        let hash = square.hash();
+        let place = hash as usize % KNOWN;
+        if let Some((of, patch)) = &self.memory.patches[place]
+            && of == square
+        {
+            return Some(Arc::clone(patch));
+        }
+        let patches = self.patches;
+        let patch = patches.patches.of(square, hash, || {
+            let around = square.parent().unwrap_or(*square);
+            let missed = self.with_list(&around, &occluders, |list, _| {
+                list.missed(square, &occluders)
+            });
+            let nodes = |square: &Square| {
+                std::array::from_fn(|row| {
+                    std::array::from_fn(|col| self.node(&square.node(row, col), &occluders))
+                })
+            };
+            Arc::new(Patch::new(square, missed, nodes))
+        });
+        self.memory.patches[place] = Some((*square, Arc::clone(&patch)));
+        Some(patch)
+    }
+
+    /// The light of a smooth surface at a place, by a patch that claims little enough, or is small enough.
+    ///
+    /// Where light has an edge, a patch claims much in a part of the cell as wide as its square.
+    fn of_patches(&mut self, candidate: &Candidate, place: DVec2) -> Option<(Shares, f64)> {
+        let point = candidate.surface_point(place.x, place.y, self.projection);
+        let unit = match self.projection {
+            Projection::Central => point.position.z / candidate.radius,
+            Projection::Parallel => 1.0 / candidate.radius,
+        };
+        let normal = self.soft.view.camera.world_from_camera * point.normal;
+        let cell = self.side * unit;
+        // Of a whole pixel, few points claim the most.
+        let is_whole = self.side > 0.75 * self.pixel;
+        let most = self.allowed * if is_whole { OF_WHOLE } else { OF_PARTS };
+        let mut width = (WIDEST * self.pixel * unit).min(WIDEST_ANGLE);
+        let [first, last] = [width, NARROWEST * cell].map(|angle| Square::level(normal, angle));
+        for level in first..=last.max(first) {
+            let square = Square::around(candidate.sphere, normal, level);
+            let at = square.locate(normal);
+            let allowed = most * (cell / width).max(1.0);
+            let patch = self.patch(&square)?;
+            let claim = patch.claim_at(at);
+            if claim <= allowed || level >= last {
+                return Some((patch.at(at), claim));
+            }
+            width *= 0.5;
+        }
+        None
+    }
+
+    /// The light at a place from the caps of all spheres.
+    fn exactly(&mut self, candidate: &Candidate, place: DVec2) -> Option<Lit> {
+        let ray = self.soft.ray(place);
+        let world = self.soft.world;
+        let hit = world.spheres()[candidate.sphere].hit_from_viewpoint(&ray)?;
+        let point: SurfacePoint = self.soft.point(candidate.sphere, &ray, &hit, self.key)?;
+        let occluders = self.soft.occluders();
+        let light = sky_light(self.sky, &point, occluders.as_ref(), self.hidden);
+        Some(Lit {
+            light: world.albedo(candidate.sphere) * light,
+            error: 0.0,
+        })
+    }
+}
+
+impl Light for OfSky<'_, '_> {
+    fn at(&mut self, candidate: &Candidate, place: DVec2) -> Option<Lit> {
+        if self.shading(candidate).is_smooth()
+            && let Some((shares, claim)) = self.of_patches(candidate, place)
+        {
+            let albedo = self.soft.world.albedo(candidate.sphere);
+            return Some(Lit {
+                light: albedo * light_of(self.sky, shares),
+                error: claim * self.brightest(),
+            });
+        }
+        self.exactly(candidate, place)
+    }
+
+    fn doubt(&mut self, candidate: &Candidate, cell: &Cell, spacing: f64) -> f64 {
+        let shading = self.shading(candidate);
+        if shading.is_smooth() {
+            return 0.0;
+        }
+        let soft = self.soft;
+        let scale = libm::scalbn(1.0, soft.index.length_exponent());
+        let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
+        let axes = &soft.view.camera.world_from_camera;
+        let mut extent = extent.in_world(axes, soft.view.camera.position, scale);
+        let of_spheres = of_small_spheres(&extent, candidate.sphere, soft.occluders().as_ref());
+        extent.turn *= spacing;
+        of_bumps(&extent, &shading).max(of_spheres) * self.brightest()
+    }
+
+    /// Patches know what they are asked for often, and how finely depends on the cell.
+    fn is_shared(&self, candidate: &Candidate) -> bool {
+        matches!(self.shading(candidate), ShadingNormal::Bumpy(_))
+    }
+
+    fn brightest(&self) -> f64 {
+        self.sky.brightest().max_element()
+    }
+
+    fn may_see(&self, candidate: &Candidate, cell: &Cell) -> bool {
+        candidate.may_be_in(cell.u, cell.v, self.projection)
+    }
+
+    fn contents(&mut self, _candidate: &Candidate, cell: &Cell, _number: usize) -> Contents {
+        self.side = cell.u[1] - cell.u[0];
+        Contents::Smooth { doubt: 0.0 }
+    }
+
+    /// Near other spheres the light goes with the square root of the distance from them.
+    fn has_roots_at_seams(&self) -> bool {
+        true
+    }
+
+    fn along(&mut self, candidate: &Candidate, curve: &Curve, _number: usize, limit: f64) -> Along {
+        /// A curve costs about as much as so many points.
+        const POINTS: u64 = 4;
+        let mut along = Along {
+            points: POINTS,
+            ..Along::default()
+        };
+        integral_along(curve, [0.0, 1.0], limit, &mut along, |place| {
+            let missed = Lit {
+                error: self.brightest(),
+                ..Lit::default()
+            };
+            self.at(candidate, place).unwrap_or(missed)
+        });
+        along
+    }
+}

@@ -1,0 +1,168 @@
+//! Squares of a sphere's surface.
+
+use glam::{DVec2, DVec3};
+
+use crate::model::sphere::Sphere;
+
+/// A square on one of six faces of a cube around a sphere, in the world's axes, seen from the sphere's center: a face that is
+/// halved along both sides `level` times.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+pub(crate) struct Square {
+    pub(crate) sphere: u32,
+    level: u8,
+    /// The axis that the face is across, and its side.
+    axis: u8,
+    is_positive: bool,
+    /// The number of squares before it along the next axis and the one after that.
+    place: [u64; 2],
+}
+
+/// Doubles tell no finer squares apart.
+const FINEST: i32 = 50;
+
+/// The face that a direction meets, and where, from −1 to 1.
+fn face(normal: DVec3) -> (usize, bool, DVec2) {
+    let size = normal.abs();
+    let axis = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
+    let toward = DVec2::new(normal[(axis + 1) % 3], normal[(axis + 2) % 3]);
+    (axis, normal[axis] > 0.0, toward / size[axis])
+}
+
+impl Square {
+    /// The square of a level in which a normal lies.
+    pub(crate) fn around(sphere: usize, normal: DVec3, level: i32) -> Self {
+        let (axis, is_positive, at) = face(normal);
+        let side = libm::scalbn(1.0, level);
+        let place = ((at + 1.0) * (0.5 * side)).clamp(DVec2::ZERO, DVec2::splat(side - 1.0));
+        Self {
+            sphere: sphere as u32,
+            level: level as u8,
+            axis: axis as u8,
+            is_positive,
+            place: [place.x as u64, place.y as u64],
+        }
+    }
+
+    /// The coarsest level whose squares at a normal are no wider than an angle in radians.
+    pub(crate) fn level(normal: DVec3, angle: f64) -> i32 {
+        let (_, _, at) = face(normal);
+        // A square of a face is seen under an angle that is smaller by this factor.
+        let square = 1.0 + at.length_squared();
+        let width = angle * square.sqrt() * square.sqrt().sqrt();
+        libm::ceil(libm::log2(2.0 / width)).clamp(0.0, FINEST.into()) as i32
+    }
+
+    /// The unit normal at a place from 0 to 1 along either side.
+    pub(crate) fn normal(&self, at: DVec2) -> DVec3 {
+        let side = libm::scalbn(1.0, self.level.into());
+        let place = DVec2::new(self.place[0] as f64, self.place[1] as f64);
+        let on_face = (place * 2.0 - side + at * 2.0) / side;
+        let axis = usize::from(self.axis);
+        let mut toward = DVec3::ZERO;
+        toward[axis] = if self.is_positive { 1.0 } else { -1.0 };
+        toward[(axis + 1) % 3] = on_face.x;
+        toward[(axis + 2) % 3] = on_face.y;
+        toward.normalize()
+    }
+
+    /// The place of a normal in it, from 0 to 1 along either side.
+    pub(crate) fn locate(&self, normal: DVec3) -> DVec2 {
+        let (_, _, at) = face(normal);
+        let side = libm::scalbn(1.0, self.level.into());
+        let place = DVec2::new(self.place[0] as f64, self.place[1] as f64);
+        ((at + 1.0) * (0.5 * side) - place).clamp(DVec2::ZERO, DVec2::ONE)
+    }
+
+    /// The square of which it is a quarter; none of a whole face.
+    pub(crate) fn parent(&self) -> Option<Self> {
+        let level = self.level.checked_sub(1)?;
+        let place = self.place.map(|place| place / 2);
+        Some(Self {
+            level,
+            place,
+            ..*self
+        })
+    }
+
+    /// The place in the parent of a place in it.
+    pub(crate) fn in_parent(&self, at: DVec2) -> DVec2 {
+        let quarter = self.place.map(|place| (place % 2) as f64);
+        (at + DVec2::from_array(quarter)) * 0.5
+    }
+
+    /// One of its 3 × 3 nodes.
+    pub(crate) fn node(&self, row: usize, col: usize) -> Node {
+        let mut corner = Self {
+            level: self.level + 1,
+            place: [
+                2 * self.place[0] + col as u64,
+                2 * self.place[1] + row as u64,
+            ],
+            ..*self
+        };
+        while corner.level > 0 && corner.place.iter().all(|place| place % 2 == 0) {
+            corner.place = corner.place.map(|place| place / 2);
+            corner.level -= 1;
+        }
+        Node(corner)
+    }
+
+    /// A number that is about as likely as any other.
+    pub(crate) fn hash(&self) -> u64 {
+        let kind =
+            u64::from(self.level) * 8 + u64::from(self.axis) * 2 + u64::from(self.is_positive);
+        let parts = [self.sphere.into(), kind, self.place[0], self.place[1]];
+        parts.into_iter().fold(0, |hash: u64, part| {
+            let mixed = (hash ^ part).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            mixed ^ (mixed >> 29)
+        })
+    }
+
+    /// The normal in its middle, and the longest chord from there to another normal.
+    pub(crate) fn extent(&self) -> (DVec3, f64) {
+        let middle = self.normal(DVec2::splat(0.5));
+        let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
+        let chords = corners.map(|(x, y)| (self.normal(DVec2::new(x, y)) - middle).length());
+        (middle, chords.into_iter().fold(0.0, f64::max))
+    }
+}
+
+/// A place that squares have in common: a corner, the middle of a side, or the middle.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+pub(crate) struct Node(
+    /// The square of the coarsest level of which it is the first corner; it may lie beside the face.
+    Square,
+);
+
+impl Node {
+    pub(crate) fn normal(&self) -> DVec3 {
+        self.0.normal(DVec2::ZERO)
+    }
+
+    pub(crate) fn hash(&self) -> u64 {
+        self.0.hash().rotate_left(17)
+    }
+
+    /// A square around it: around all nodes of a square, that is the square's parent or one beside it.
+    pub(crate) fn home(&self) -> Square {
+        let level = self.0.level.saturating_sub(2);
+        let last = (1_u64 << level) - 1;
+        let place = self.0.place;
+        Square {
+            level,
+            place: place.map(|place| (place >> (self.0.level - level)).min(last)),
+            ..self.0
+        }
+    }
+}
+
+/// The point of a sphere with a normal.
+pub(crate) fn point(sphere: &Sphere, normal: DVec3) -> DVec3 {
+    sphere.center() + normal * sphere.radius()
+}
