@@ -23,7 +23,33 @@ pub(crate) struct Height {
     pub(crate) inner: f64,
     /// Half of their difference, unless the sphere is far from the way to the sun.
     pub(crate) wide: f64,
+    /// The radius of the sphere; infinite for a horizon.
+    pub(crate) radius: f64,
 }
+
+impl Height {
+    /// The height over an edge, and a number of the same sign that is quadratic along straight lines: with the distance a from
+    /// the middle of a shadow whose radius is r, that is (a² − r²)/2r.
+    fn over(&self, edge: usize) -> [f64; 2] {
+        let (height, shadow) = match edge {
+            OUTER => (self.outer, self.radius + self.wide),
+            INNER => (self.inner, self.radius - self.wide),
+            _ => return [0.5 * (self.outer + self.inner); 2],
+        };
+        // Behind the point of the cone there is no shadow.
+        let factor = if shadow > 0.0 {
+            1.0 + 0.5 * height / shadow
+        } else {
+            1.0
+        };
+        [height, height * factor]
+    }
+}
+
+/// The edges at which the disc begins to be hidden, at which all of it is, and at which half of it is.
+const OUTER: usize = 0;
+const INNER: usize = 1;
+const MIDDLE: usize = 2;
 
 impl Edge {
     /// The height of a point.
@@ -52,6 +78,7 @@ impl Edge {
                     outer: from_point(is_near, near - wide),
                     inner: from_point(is_before, near + wide),
                     wide: wide.abs(),
+                    radius: *radius,
                 }
             }
             Self::Horizon { .. } => {
@@ -60,6 +87,7 @@ impl Edge {
                     outer: height - disc.sine,
                     inner: height + disc.sine,
                     wide: disc.sine,
+                    radius: f64::INFINITY,
                 }
             }
         }
@@ -73,96 +101,187 @@ impl Edge {
     }
 }
 
+/// A place from 0 to 1 on a curve at which light is not smooth.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Break {
+    pub(crate) place: f64,
+    /// Tells apart what begins or ends there: the edges of several spheres, and those of one.
+    pub(crate) of: usize,
+}
+
+/// What is sought on a curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sought {
+    /// Also where an edge hides half of the disc: a highlight jumps there.
+    pub(crate) has_middle: bool,
+    /// True if edges are to be exact, not only known to a part of the penumbra's width.
+    pub(crate) is_exact: bool,
+    /// A number that tells the edge from others.
+    pub(crate) number: usize,
+}
+
 /// The places from 0 to 1 at which heights are computed before others are sought between them.
 pub(crate) const KNOTS: usize = 5;
 
 /// Steps that find where a height is 0.
 const STEPS: u32 = 40;
 
+/// What is known at a place.
+#[derive(Clone, Copy, Debug)]
+struct Knot {
+    place: f64,
+    height: f64,
+    /// A number of the same sign that is quadratic along straight lines.
+    square: f64,
+    wide: f64,
+}
+
+impl Knot {
+    fn is_below(&self) -> bool {
+        self.height < 0.0
+    }
+}
+
 /// Finds the places from 0 to 1 on a curve at which an edge begins or ceases to hide some of a disc, or all of it: heights
-/// are 0 there, to a part of the penumbra's width. With `has_middle` also those at which it hides about half.
+/// are 0 there, to a part of the penumbra's width.
 ///
-/// Heights bend little between knots; where one may turn before it reaches 0, its turn is looked at.
+/// Heights bend little between knots; where one may turn before it reaches 0, its turn is sought.
 pub(crate) fn add_breaks(
     knots: &[Height; KNOTS],
-    mut height: impl FnMut(f64) -> Height,
-    has_middle: bool,
-    breaks: &mut Vec<f64>,
+    height: &mut dyn FnMut(f64) -> Height,
+    sought: Sought,
+    breaks: &mut Vec<Break>,
 ) {
-    let kinds: [fn(&Height) -> f64; 3] = [
-        |of| of.outer,
-        |of| of.inner,
-        |of| 0.5 * (of.outer + of.inner),
-    ];
-    for kind in &kinds[..if has_middle { 3 } else { 2 }] {
-        let values = knots.map(|knot| kind(&knot));
-        if values.iter().all(|&value| value == values[0]) {
+    /// The part of a penumbra's half width to which an edge is known.
+    const CLOSE: f64 = 0.01;
+    const EXACT: f64 = 1e-9;
+    for edge in OUTER..=if sought.has_middle { MIDDLE } else { INNER } {
+        let knot = |place: f64, there: &Height| {
+            let [height, square] = there.over(edge);
+            Knot {
+                place,
+                height,
+                square,
+                wide: there.wide,
+            }
+        };
+        let knots: [Knot; KNOTS] =
+            std::array::from_fn(|index| knot(index as f64 / (KNOTS - 1) as f64, &knots[index]));
+        if knots.iter().all(|knot| knot.height == knots[0].height) {
             continue;
         }
-        let knot = |index: usize| (index as f64 / (KNOTS - 1) as f64, values[index]);
-        for index in 1..KNOTS {
-            let (low, high) = (knot(index - 1), knot(index));
-            if (low.1 < 0.0) != (high.1 < 0.0) {
-                breaks.push(root(low, high, *kind, &mut height));
+        let close = if sought.is_exact || edge == MIDDLE {
+            EXACT
+        } else {
+            CLOSE
+        };
+        let mut at = |place: f64| knot(place, &height(place));
+        let mut add = |low: Knot, high: Knot, at: &mut dyn FnMut(f64) -> Knot| {
+            breaks.push(Break {
+                place: root(low, high, close, at),
+                of: sought.number * (MIDDLE + 1) + edge,
+            });
+        };
+        for ends in knots.windows(2) {
+            if ends[0].is_below() != ends[1].is_below() {
+                add(ends[0], ends[1], &mut at);
             }
         }
-        for index in 1..KNOTS - 1 {
-            let [before, at, after] = [index - 1, index, index + 1].map(knot);
-            let is_one_side = (before.1 < 0.0) == (at.1 < 0.0) && (at.1 < 0.0) == (after.1 < 0.0);
-            if !is_one_side {
-                continue;
-            }
-            // The parabola through three knots: its turn, if it is nearer to 0 than they are.
-            let (slope, bend) = (0.5 * (after.1 - before.1), before.1 - 2.0 * at.1 + after.1);
-            if bend * at.1 <= 0.0 || slope.abs() > bend.abs() {
-                continue;
-            }
-            let step = at.0 - before.0;
-            let turn = at.0 - slope / bend * step;
-            let height_there = kind(&height(turn));
-            if (height_there < 0.0) != (at.1 < 0.0) {
-                let there = (turn, height_there);
-                let (low, high) = if turn < at.0 {
-                    (before, at)
-                } else {
-                    (at, after)
-                };
-                breaks.push(root(low, there, *kind, &mut height));
-                breaks.push(root(there, high, *kind, &mut height));
+        let mut last = f64::NEG_INFINITY;
+        for near in knots.windows(3) {
+            let below = near.iter().filter(|knot| knot.is_below()).count();
+            if (below == 0 || below == near.len())
+                && let Some([low, there, high]) = turn([near[0], near[1], near[2]], last, &mut at)
+            {
+                add(low, there, &mut at);
+                add(there, high, &mut at);
+                // The next three places have an interval in common with these.
+                let next = usize::from(there.place >= near[1].place) + 1;
+                last = near[next].place;
             }
         }
     }
 }
 
-/// Where a height changes its sign, between two places with different ones: by false position, with the values halved at an
-/// end that stays (Illinois).
-fn root(
-    (mut low, mut at_low): (f64, f64),
-    (mut high, mut at_high): (f64, f64),
-    kind: fn(&Height) -> f64,
-    height: &mut impl FnMut(f64) -> Height,
-) -> f64 {
-    /// The part of a penumbra's half width to which its edge is known.
-    const CLOSE: f64 = 0.01;
-    let mut place = 0.5 * (low + high);
+/// The turn of a height between three places, if it is on the other side of 0 than they are and above `least`, and two places
+/// beside it. It is sought by parabolas, through places that are closer if it may be much nearer to 0 than they are.
+fn turn(
+    [mut before, mut middle, mut after]: [Knot; 3],
+    least: f64,
+    at: &mut dyn FnMut(f64) -> Knot,
+) -> Option<[Knot; 3]> {
+    const STEPS: u32 = 8;
+    /// A turn is not sought any further where a height becomes less by a lesser factor.
+    const FASTER: f64 = 0.5;
+    /// Unless it is less than this part of those beside it.
+    const NEAR: f64 = 0.1;
+    for _ in 0..STEPS {
+        let [low, high] = [before, after].map(|one| {
+            let away = one.place - middle.place;
+            (away, (one.square - middle.square) / away)
+        });
+        // Of the parabola s + b x + c x².
+        let c = (high.1 - low.1) / (high.0 - low.0);
+        let b = low.1 - c * low.0;
+        let place = middle.place - 0.5 * b / c;
+        let is_toward_zero = c * middle.height > 0.0;
+        if !(is_toward_zero && place > before.place.max(least) && place < after.place) {
+            return None;
+        }
+        let there = at(place);
+        let (low, high) = if place < middle.place {
+            (before, middle)
+        } else {
+            (middle, after)
+        };
+        if there.is_below() != middle.is_below() {
+            return Some([low, there, high]);
+        }
+        if there.height.abs() <= FASTER * middle.height.abs() {
+            (before, middle, after) = (low, there, high);
+            continue;
+        }
+        let nearest = middle.height.abs();
+        if nearest > NEAR * before.height.abs().min(after.height.abs()) {
+            return None;
+        }
+        let [low, high] = [before, after].map(|one| at(0.5 * (one.place + middle.place)));
+        for found in [low, high] {
+            if found.is_below() != middle.is_below() {
+                return Some(if found.place < middle.place {
+                    [before, found, middle]
+                } else {
+                    [middle, found, after]
+                });
+            }
+        }
+        (before, after) = (low, high);
+    }
+    None
+}
+
+/// Where a height changes its sign, between two places with different ones, to a part of the penumbra's half width: by false
+/// position, with the values halved at an end that stays (Illinois).
+fn root(mut low: Knot, mut high: Knot, close: f64, at: &mut dyn FnMut(f64) -> Knot) -> f64 {
+    let mut place = 0.5 * (low.place + high.place);
     let mut moved_high = None;
     for _ in 0..STEPS {
-        place = low + (high - low) * (at_low / (at_low - at_high));
-        let there = height(place);
-        let value = kind(&there);
-        if value.abs() <= CLOSE * there.wide {
+        let share = low.height / (low.height - high.height);
+        place = low.place + (high.place - low.place) * share;
+        let there = at(place);
+        if there.height.abs() <= close * there.wide {
             break;
         }
-        let is_high = (value < 0.0) == (at_high < 0.0);
+        let is_high = there.is_below() == high.is_below();
         if is_high {
-            (high, at_high) = (place, value);
+            high = there;
             if moved_high == Some(true) {
-                at_low *= 0.5;
+                low.height *= 0.5;
             }
         } else {
-            (low, at_low) = (place, value);
+            low = there;
             if moved_high == Some(false) {
-                at_high *= 0.5;
+                high.height *= 0.5;
             }
         }
         moved_high = Some(is_high);

@@ -15,26 +15,12 @@ use crate::model::camera::Projection;
 pub(crate) struct Height {
     pub(crate) v: f64,
     pub(crate) is_turn: bool,
-    /// True if a penumbra crosses a side there. Its edge may have come from below, or go there.
-    pub(crate) is_penumbra: bool,
 }
 
 impl Height {
     /// One at which something crosses a side of the cell.
     pub(crate) fn crossing(v: f64) -> Self {
-        Self {
-            v,
-            is_turn: false,
-            is_penumbra: false,
-        }
-    }
-
-    /// One at which an edge of a penumbra crosses a side of the cell.
-    pub(crate) fn of_penumbra(v: f64) -> Self {
-        Self {
-            is_penumbra: true,
-            ..Self::crossing(v)
-        }
+        Self { v, is_turn: false }
     }
 }
 
@@ -140,7 +126,6 @@ pub(crate) fn heights(
         heights.extend(inside.map(|point| Height {
             v: point.y,
             is_turn: true,
-            is_penumbra: false,
         }));
     }
     heights.retain(|height| (v[0]..=v[1]).contains(&height.v));
@@ -148,7 +133,6 @@ pub(crate) fn heights(
     heights.dedup_by(|later, height| {
         let is_same = later.v == height.v;
         height.is_turn |= is_same && later.is_turn;
-        height.is_penumbra |= is_same && later.is_penumbra;
         is_same
     });
     heights

@@ -4,11 +4,13 @@ use super::candidate::Candidate;
 use super::seam::Seam;
 use crate::model::camera::Projection;
 
-/// A part of a line on which one sphere, or none, is seen.
+/// A part of a line on which one sphere, or none, is met.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Span {
     pub(crate) begin: f64,
     pub(crate) end: f64,
+    /// The place of the candidate that is met there.
+    pub(crate) met: Option<usize>,
     /// The place of the candidate that is seen there with light; none where light is known to be none.
     pub(crate) seen: Option<usize>,
 }
@@ -66,11 +68,17 @@ pub(crate) fn spans(
         if end <= begin {
             continue;
         }
-        let seen = first(candidates, 0.5 * (begin + end), v, projection);
-        let seen = seen.and_then(|(place, has_light)| has_light.then_some(place));
+        let first = first(candidates, 0.5 * (begin + end), v, projection);
+        let met = first.map(|(place, _)| place);
+        let seen = first.and_then(|(place, has_light)| has_light.then_some(place));
         match spans.last_mut() {
-            Some(last) if last.seen == seen => last.end = end,
-            _ => spans.push(Span { begin, end, seen }),
+            Some(last) if (last.met, last.seen) == (met, seen) => last.end = end,
+            _ => spans.push(Span {
+                begin,
+                end,
+                met,
+                seen,
+            }),
         }
         begin = end;
     }

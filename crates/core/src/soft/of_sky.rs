@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::candidate::Candidate;
 use super::curve::Curve;
 use super::doubt::{Extent, of_bumps, of_small_spheres};
+use super::edges::Break;
 use super::list::List;
 use super::patch::Patch;
 use super::patches::Patches;
@@ -245,18 +246,19 @@ impl Light for OfSky<'_, '_> {
         true
     }
 
-    fn along(&mut self, candidate: &Candidate, curve: &Curve, _number: usize, limit: f64) -> Along {
-        /// A curve costs about as much as so many points.
-        const POINTS: u64 = 4;
-        let mut along = Along {
-            points: POINTS,
-            ..Along::default()
+    fn along(
+        &mut self,
+        (candidate, _): (&Candidate, usize),
+        curve: &Curve,
+        _breaks: &[Break],
+        limit: f64,
+    ) -> Along {
+        let mut along = Along::default();
+        let missed = Lit {
+            error: self.brightest(),
+            ..Lit::default()
         };
         integral_along(curve, [0.0, 1.0], limit, &mut along, |place| {
-            let missed = Lit {
-                error: self.brightest(),
-                ..Lit::default()
-            };
             self.at(candidate, place).unwrap_or(missed)
         });
         along

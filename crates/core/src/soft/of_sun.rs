@@ -5,7 +5,7 @@ use glam::{DMat3, DVec2};
 use super::candidate::Candidate;
 use super::curve::Curve;
 use super::doubt::{Extent, of_bumps, of_highlight, of_penumbra, of_speck, of_terminator};
-use super::edges::{Edge, KNOTS, add_breaks};
+use super::edges::{Break, Edge, KNOTS, Sought, add_breaks};
 use super::light::sun_light;
 use super::point::SurfacePoint;
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
@@ -23,7 +23,6 @@ use crate::model::world::World;
 pub(crate) struct SunMemory {
     /// For each candidate of a cell.
     edges: Vec<Vec<Edge>>,
-    breaks: Vec<f64>,
 }
 
 /// The light of a sun in one pixel, in the camera's frame.
@@ -44,9 +43,6 @@ pub(crate) fn strongest_highlight(world: &World) -> f64 {
     let strengths = world.materials().iter().filter_map(|one| one.highlight);
     strengths.fold(0.0, |most, one| most.max(one.strength))
 }
-
-/// A curve costs about as much as so many points.
-const POINTS_OF_CURVE: u64 = 4;
 
 /// Half of a penumbra's width, in parts of the size of a cell, below which its edges are looked for.
 const NARROW: f64 = 3.0;
@@ -185,7 +181,7 @@ impl Light for OfSun<'_> {
         candidate: &Candidate,
         curve: &Curve,
         number: usize,
-        breaks: &mut Vec<f64>,
+        breaks: &mut Vec<Break>,
     ) -> bool {
         let shading = self.shading(candidate);
         let disc = self.sun.disc;
@@ -196,7 +192,7 @@ impl Light for OfSun<'_> {
         let middle = knots[KNOTS / 2];
         let reach = |knot: &SurfacePoint| (knot.position - middle.position).length();
         let reach = REACH * knots.iter().map(reach).fold(0.0, f64::max);
-        for edge in &self.memory.edges[number] {
+        for (number, edge) in self.memory.edges[number].iter().enumerate() {
             if matches!(edge, Edge::Sphere { .. }) {
                 let height = edge.height(&middle, &disc);
                 if height.inner < -reach {
@@ -209,42 +205,40 @@ impl Light for OfSun<'_> {
             let heights = knots.map(|place| edge.height(&place, &disc));
             add_breaks(
                 &heights,
-                |place| edge.height(&self.place(candidate, &shading, curve.at(place)), &disc),
-                matches!(
-                    edge,
-                    Edge::Horizon {
-                        has_highlight: true
-                    }
-                ),
+                &mut |place| edge.height(&self.place(candidate, &shading, curve.at(place)), &disc),
+                Sought {
+                    has_middle: matches!(
+                        edge,
+                        Edge::Horizon {
+                            has_highlight: true
+                        }
+                    ),
+                    is_exact: curve.is_vertical,
+                    number,
+                },
                 breaks,
             );
         }
         true
     }
 
-    fn along(&mut self, candidate: &Candidate, curve: &Curve, number: usize, limit: f64) -> Along {
+    fn along(
+        &mut self,
+        (candidate, number): (&Candidate, usize),
+        curve: &Curve,
+        breaks: &[Break],
+        limit: f64,
+    ) -> Along {
         let shading = self.shading(candidate);
-        let mut breaks = std::mem::take(&mut self.memory.breaks);
-        breaks.clear();
-        breaks.push(0.0);
-        let is_lit = self.add_breaks(candidate, curve, number, &mut breaks);
-        if !is_lit {
-            self.memory.breaks = breaks;
-            return Along::default();
-        }
-        breaks.push(1.0);
-        breaks.sort_unstable_by(f64::total_cmp);
-        let mut along = Along {
-            breaks: breaks.len(),
-            points: POINTS_OF_CURVE,
-            ..Along::default()
-        };
-        for ends in breaks.windows(2) {
-            let length = ends[1] - ends[0];
-            if length <= 0.0 {
+        let mut along = Along::default();
+        let mut begin = 0.0;
+        let ends = breaks.iter().map(|one| one.place);
+        for end in ends.chain([1.0]) {
+            let from = std::mem::replace(&mut begin, end);
+            if end <= from {
                 continue;
             }
-            integral_along(curve, [ends[0], ends[1]], limit, &mut along, |at| {
+            integral_along(curve, [from, end], limit, &mut along, |at| {
                 let place = self.place(candidate, &shading, at);
                 Lit {
                     light: self.light(&place, number),
@@ -252,7 +246,6 @@ impl Light for OfSun<'_> {
                 }
             });
         }
-        self.memory.breaks = breaks;
         along
     }
 }

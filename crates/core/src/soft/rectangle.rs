@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::candidate::Candidate;
 use super::curve::Curve;
+use super::edges::Break;
 use crate::model::color::Color;
 
 /// A rectangle of the picture, where rays have the directions (u, v, 1); parallel rays begin at (u, v, 0).
@@ -45,13 +46,19 @@ pub(crate) trait Light {
         _candidate: &Candidate,
         _curve: &Curve,
         _number: usize,
-        _breaks: &mut Vec<f64>,
+        _breaks: &mut Vec<Break>,
     ) -> bool {
         true
     }
 
-    /// The integral along a curve; the limit is for its error in parts of the curve's length.
-    fn along(&mut self, candidate: &Candidate, curve: &Curve, number: usize, limit: f64) -> Along;
+    /// The integral along a curve between sorted breaks; the limit is for its error in parts of the curve's length.
+    fn along(
+        &mut self,
+        of: (&Candidate, usize),
+        curve: &Curve,
+        breaks: &[Break],
+        limit: f64,
+    ) -> Along;
 }
 
 /// Light at a place.
@@ -76,10 +83,6 @@ pub(crate) struct Along {
     pub(crate) integral: Color,
     /// An estimate of its error.
     pub(crate) error: f64,
-    /// The number of places at which light is not smooth.
-    pub(crate) breaks: usize,
-    /// What it costs, in points.
-    pub(crate) points: u64,
 }
 
 /// What light is like in a cell.

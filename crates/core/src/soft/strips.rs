@@ -2,6 +2,7 @@
 
 use super::candidate::Candidate;
 use super::curve::{Curve, Way};
+use super::edges::Break;
 use super::heights::{Height, heights};
 use super::line::{Span, spans};
 use super::rectangle::{Cell, Contents, Integral, Light};
@@ -39,9 +40,33 @@ const RULE: [RuleNode; 5] = [
 struct Line {
     sum: Color,
     error: f64,
+    pattern: Pattern,
+}
+
+/// What is seen along a line, and what begins and ends on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Pattern {
     breaks: usize,
-    /// A number for the order of what is seen, and of what begins and ends.
-    pattern: usize,
+    /// A number for their order.
+    order: u64,
+}
+
+impl Pattern {
+    fn add(&mut self, of: usize) {
+        self.order =
+            (self.order ^ of as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (self.order >> 29);
+    }
+
+    /// Adds sorted breaks. Those in the same place, as of spheres that coincide, have no order.
+    fn add_breaks(&mut self, breaks: &[Break]) {
+        /// The distance below which rounding may exchange breaks.
+        const SAME: f64 = 1e-9;
+        self.breaks += breaks.len();
+        for same in breaks.chunk_by(|one, next| next.place - one.place < SAME) {
+            self.add(same.len());
+            self.add(same.iter().map(|one| (one.of + 1) * (one.of + 1)).sum());
+        }
+    }
 }
 
 /// A part of a cell between two heights.
@@ -57,10 +82,8 @@ struct Strip {
 #[derive(Clone, Copy, Debug)]
 struct Change {
     heights: [f64; 2],
-    /// The pattern of the lower line.
-    pattern: usize,
-    /// True if more is seen above.
-    is_more: bool,
+    /// The patterns of the lower and the upper line.
+    patterns: [Pattern; 2],
     difference: f64,
 }
 
@@ -69,7 +92,7 @@ struct Change {
 pub(crate) struct Strips {
     ends: Vec<f64>,
     spans: Vec<Span>,
-    breaks: Vec<f64>,
+    breaks: Vec<Break>,
     contents: Vec<Contents>,
     seams: Vec<Seam>,
     strips: Vec<Strip>,
@@ -81,10 +104,14 @@ pub(crate) struct Strips {
 const MOST_DIVISIONS: usize = 16;
 
 /// Halvings that find the height at which something begins or ends.
-const HALVINGS: u32 = 8;
+const HALVINGS: u32 = 20;
 
 /// How far points of lines are apart, in parts of the cell.
 const SPACING: f64 = 0.25;
+
+/// The light of a curve costs about as much as so many points, and what begins and ends on it.
+const POINTS_OF_CURVE: u64 = 3;
+const POINTS_OF_PATTERN: u64 = 1;
 
 /// The claim of a rule, in parts of its difference from the coarser one. Not tuned.
 const OF_RULES: f64 = 1.0;
@@ -143,17 +170,12 @@ impl Strips {
         let heights = self.heights(light, scene);
         let mut strips = std::mem::take(&mut self.strips);
         strips.clear();
-        let last = heights.len() - 2;
-        for (index, ends) in heights.windows(2).enumerate() {
+        for ends in heights.windows(2) {
             let between = Way {
                 ends: [ends[0].v, ends[1].v],
                 is_root: [ends[0].is_turn, ends[1].is_turn],
             };
-            let looks_at = [
-                index == 0 || ends[0].is_penumbra,
-                index == last || ends[1].is_penumbra,
-            ];
-            strips.push(self.strip(light, scene, between, looks_at));
+            strips.push(self.strip(light, scene, between));
         }
         for _ in 0..MOST_DIVISIONS {
             if strips.iter().map(|strip| strip.error).sum::<f64>() <= limit {
@@ -163,8 +185,8 @@ impl Strips {
             let worst = worst.max_by(|(_, one), (_, other)| one.error.total_cmp(&other.error));
             let Some((worst, strip)) = worst else { break };
             let [lower, upper] = self.division(light, scene, strip);
-            strips[worst] = self.strip(light, scene, lower, [false; 2]);
-            strips.push(self.strip(light, scene, upper, [false; 2]));
+            strips[worst] = self.strip(light, scene, lower);
+            strips.push(self.strip(light, scene, upper));
         }
         let mut integral = Integral::default();
         for strip in &strips {
@@ -200,8 +222,8 @@ impl Strips {
                 let curve = Curve::new(true, side, [span.begin, span.end], candidate, projection);
                 breaks.clear();
                 light.add_breaks(candidate, &curve, number, breaks);
-                let heights = breaks.iter().map(|&place| curve.along.at(place).0);
-                all.extend(heights.map(Height::of_penumbra));
+                let heights = breaks.iter().map(|one| curve.along.at(one.place).0);
+                all.extend(heights.map(Height::crossing));
             }
         };
         heights(
@@ -224,13 +246,14 @@ impl Strips {
                 let [mut below, mut above] = change.heights;
                 for _ in 0..HALVINGS {
                     let middle = 0.5 * (below + above);
-                    if self.line(light, scene, middle).pattern == change.pattern {
+                    if self.pattern(light, scene, middle) == change.patterns[0] {
                         below = middle;
                     } else {
                         above = middle;
                     }
                 }
-                (0.5 * (below + above), !change.is_more, change.is_more)
+                let [before, after] = change.patterns.map(|pattern| pattern.breaks);
+                (0.5 * (below + above), after < before, after > before)
             }
             None => (0.5 * (low + high), false, false),
         };
@@ -246,14 +269,8 @@ impl Strips {
         ]
     }
 
-    /// The light of a strip; whether to look at its lower and its upper end, too, for what begins or ends.
-    fn strip(
-        &mut self,
-        light: &mut dyn Light,
-        scene: Scene<'_>,
-        between: Way,
-        looks_at: [bool; 2],
-    ) -> Strip {
+    /// The light of a strip. Lines at its ends are looked at, too, for what begins or ends between them and others.
+    fn strip(&mut self, light: &mut dyn Light, scene: Scene<'_>, between: Way) -> Strip {
         let mut strip = Strip {
             between,
             value: Color::ZERO,
@@ -261,12 +278,10 @@ impl Strips {
             change: None,
         };
         /// The part of a strip by which lines at its ends are inside of it.
-        const INSIDE: f64 = 1e-3;
-        let inside = INSIDE * (between.ends[1] - between.ends[0]);
-        let mut before: Option<(Line, f64)> = looks_at[0].then(|| {
-            let low = between.ends[0] + inside;
-            (self.line(light, scene, low), low)
-        });
+        const INSIDE: f64 = 1e-5;
+        let [low, high] = between.ends;
+        let inside = INSIDE * (high - low);
+        let mut before: Option<(Line, f64)> = None;
         let mut rough = Color::ZERO;
         for node in &RULE {
             let (v, speed) = between.at(node.place);
@@ -274,19 +289,40 @@ impl Strips {
             strip.value += line.sum * (node.fine * speed);
             rough += line.sum * (node.coarse * speed);
             strip.error += line.error * (node.fine * speed);
-            strip.compare(before, (line, v));
+            let below = before.or_else(|| self.unlike(light, scene, low + inside, &line));
+            strip.compare(below, Some((line, v)));
             before = Some((line, v));
         }
-        if looks_at[1] {
-            let high = between.ends[1] - inside;
-            let line = self.line(light, scene, high);
-            strip.compare(before, (line, high));
+        if let Some((last, _)) = before {
+            let above = self.unlike(light, scene, high - inside, &last);
+            strip.compare(before, above);
         }
         strip.error += (strip.value - rough).abs().max_element() * OF_RULES;
         strip
     }
 
+    /// The line at a height unless its pattern is that of another.
+    fn unlike(
+        &mut self,
+        light: &mut dyn Light,
+        scene: Scene<'_>,
+        v: f64,
+        other: &Line,
+    ) -> Option<(Line, f64)> {
+        let is_like = self.pattern(light, scene, v) == other.pattern;
+        (!is_like).then(|| (self.line(light, scene, v), v))
+    }
+
     fn line(&mut self, light: &mut dyn Light, scene: Scene<'_>, v: f64) -> Line {
+        self.walk(light, scene, v, true)
+    }
+
+    fn pattern(&mut self, light: &mut dyn Light, scene: Scene<'_>, v: f64) -> Pattern {
+        self.walk(light, scene, v, false).pattern
+    }
+
+    /// What is seen along a line; its light, too, if that is wanted.
+    fn walk(&mut self, light: &mut dyn Light, scene: Scene<'_>, v: f64, wants_light: bool) -> Line {
         let Scene {
             cell,
             projection,
@@ -296,30 +332,51 @@ impl Strips {
         let Self {
             ends,
             spans: found,
+            breaks,
             contents,
             seams,
+            points,
             ..
         } = self;
         spans((candidates, seams), cell.u, v, projection, ends, found);
         let mut line = Line::default();
-        for Span { begin, end, seen } in found {
-            let Some(number) = *seen else { continue };
-            if matches!(contents[number], Contents::Dark) {
+        for Span {
+            begin,
+            end,
+            met,
+            seen,
+        } in found
+        {
+            // Where nothing is lit, too: the ends of lit spans bend where what lies beside them changes.
+            line.pattern.add(met.map_or(0, |number| number + 1));
+            let lit = seen.filter(|&number| !matches!(contents[number], Contents::Dark));
+            let Some(number) = lit else {
+                line.pattern.add(0);
                 continue;
-            }
+            };
             let candidate = &candidates[number];
             let mut curve = Curve::new(false, v, [*begin, *end], candidate, projection);
             if light.has_roots_at_seams() {
                 curve.along.is_root[0] |= *begin > cell.u[0];
                 curve.along.is_root[1] |= *end < cell.u[1];
             }
-            let along = light.along(candidate, &curve, number, scene.limit);
-            self.points += along.points;
-            line.sum += along.integral;
-            line.error += along.error;
-            line.breaks += along.breaks;
-            let of_span = (number + 1).wrapping_mul(31).wrapping_add(along.breaks);
-            line.pattern = line.pattern.wrapping_mul(961).wrapping_add(of_span);
+            breaks.clear();
+            *points += POINTS_OF_PATTERN;
+            if !light.add_breaks(candidate, &curve, number, breaks) {
+                line.pattern.add(0);
+                continue;
+            }
+            breaks.sort_unstable_by(|one, other| {
+                let in_place = one.place.total_cmp(&other.place);
+                in_place.then(one.of.cmp(&other.of))
+            });
+            line.pattern.add_breaks(breaks);
+            if wants_light {
+                *points += POINTS_OF_CURVE;
+                let along = light.along((candidate, number), &curve, breaks, scene.limit);
+                line.sum += along.integral;
+                line.error += along.error;
+            }
         }
         line
     }
@@ -327,23 +384,22 @@ impl Strips {
 
 impl Strip {
     /// Notices what begins or ends between two lines.
-    fn compare(&mut self, before: Option<(Line, f64)>, (line, v): (Line, f64)) {
-        let Some((before, below)) = before else {
+    fn compare(&mut self, before: Option<(Line, f64)>, after: Option<(Line, f64)>) {
+        let (Some((before, below)), Some((after, above))) = (before, after) else {
             return;
         };
-        if before.pattern == line.pattern {
+        if before.pattern == after.pattern {
             return;
         }
-        let difference = (line.sum - before.sum).abs().max_element() * (v - below);
+        let difference = (after.sum - before.sum).abs().max_element() * (above - below);
         self.error += difference * OF_CHANGE;
         if self
             .change
             .is_none_or(|change| change.difference < difference)
         {
             self.change = Some(Change {
-                heights: [below, v],
-                pattern: before.pattern,
-                is_more: line.breaks > before.breaks,
+                heights: [below, above],
+                patterns: [before.pattern, after.pattern],
                 difference,
             });
         }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Edge, Height, KNOTS, add_breaks};
+use super::{Break, Edge, Height, KNOTS, Sought, add_breaks};
 use crate::model::color::Color;
 use crate::soft::cap::Cap;
 use crate::soft::point::SurfacePoint;
@@ -97,6 +97,12 @@ fn heights_change_by_no_more_than_the_point_moves() {
     }
 }
 
+const SOUGHT: Sought = Sought {
+    has_middle: false,
+    is_exact: false,
+    number: 0,
+};
+
 #[test]
 fn all_breaks_of_a_line_are_found() {
     let edge = Edge::Sphere {
@@ -114,7 +120,7 @@ fn all_breaks_of_a_line_are_found() {
             let knots: [Height; KNOTS] =
                 std::array::from_fn(|index| height(index as f64 / (KNOTS - 1) as f64));
             let mut breaks = Vec::new();
-            add_breaks(&knots, height, false, &mut breaks);
+            add_breaks(&knots, &mut { height }, SOUGHT, &mut breaks);
             let signs = |place: f64| {
                 let Height { outer, inner, .. } = height(place);
                 [outer < 0.0, inner < 0.0]
@@ -131,10 +137,62 @@ fn all_breaks_of_a_line_are_found() {
                 changes += changed.count();
             }
             assert_eq!(breaks.len(), changes, "{angle} {aside}: {breaks:?}");
-            for place in breaks {
-                let Height { outer, inner, wide } = height(place);
+            for Break { place, .. } in breaks {
+                let Height {
+                    outer, inner, wide, ..
+                } = height(place);
                 assert!(outer.abs().min(inner.abs()) <= 0.011 * wide);
             }
         }
     }
+}
+
+#[test]
+fn a_narrow_shadow_between_knots_is_found() {
+    // Where a sphere touches the floor, the upper half of a sun that is setting is hidden along a narrow stripe only.
+    let edge = Edge::Sphere {
+        center: DVec3::new(0.0, 3.762_770, 0.0),
+        radius: 3.762_77,
+    };
+    let sun = sun(DVec3::new(-1.0, -1e-6, 0.0), 1e-4);
+    for aside in 0..40 {
+        let height = |place: f64| {
+            // Rows of a picture: distances go with 1/place.
+            let z = 10.0 / (0.1 + 0.05 * place) - 74.0 - 0.5 * f64::from(aside);
+            edge.height(&on_floor(DVec3::new(100.0, 0.0, z)), &sun.disc)
+        };
+        let knots: [Height; KNOTS] =
+            std::array::from_fn(|index| height(index as f64 / (KNOTS - 1) as f64));
+        let mut breaks = Vec::new();
+        add_breaks(&knots, &mut { height }, SOUGHT, &mut breaks);
+        assert_eq!(breaks.len(), 2, "{aside}: {breaks:?}");
+    }
+}
+
+#[test]
+fn the_middle_of_a_disc_is_exact() {
+    let sun = sun(DVec3::new(0.0, 0.1, 1.0), 0.1);
+    let edge = Edge::Horizon {
+        has_highlight: true,
+    };
+    let height = |place: f64| {
+        let angle = 0.3 * place - 0.1;
+        let normal = DVec3::new(0.0, libm::cos(angle), -libm::sin(angle));
+        let mut at = on_floor(DVec3::ZERO);
+        (at.normal, at.shading) = (normal, normal);
+        edge.height(&at, &sun.disc)
+    };
+    let knots: [Height; KNOTS] =
+        std::array::from_fn(|index| height(index as f64 / (KNOTS - 1) as f64));
+    let sought = Sought {
+        has_middle: true,
+        ..SOUGHT
+    };
+    let mut breaks = Vec::new();
+    add_breaks(&knots, &mut { height }, sought, &mut breaks);
+    let middle = libm::atan(0.1);
+    let middle = breaks
+        .iter()
+        .filter(|one| (0.3 * one.place - 0.1 - middle).abs() < 1e-9);
+    assert_eq!((breaks.len(), middle.count()), (3, 1), "{breaks:?}");
 }
