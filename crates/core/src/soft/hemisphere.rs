@@ -135,3 +135,53 @@ impl Disc {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_directions_of_a_hidden_cap_are_hidden() {
+        let mut state = 3_u64;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 * 2_f64.powi(-52) - 1.0
+        };
+        let (mut hidden, mut seen) = (0, 0);
+        for _ in 0..200 {
+            let mut vector = || DVec3::new(next(), next(), next()).normalize();
+            let normal = vector();
+            let caps: Vec<(DVec3, DVec3)> = (0..14).map(|_| (vector(), vector())).collect();
+            let caps = caps
+                .into_iter()
+                .map(|(axis, size)| Cap::within(axis, 0.7 * size.x.abs()));
+            let caps: Vec<Cap> = caps.collect();
+            let turn = 0.3 * vector().x.abs();
+            let mut hemisphere = Hemisphere::new(normal, turn);
+            caps.iter().for_each(|cap| hemisphere.hide(cap));
+            for _ in 0..40 {
+                let cap = Cap::within(vector(), 0.2 * vector().x.abs());
+                let frame = cap.frame();
+                let directions = (0..60).map(|index| {
+                    let (sine, cosine) = libm::sincos(f64::from(index));
+                    let part = libm::sqrt(f64::from(index) / 59.0);
+                    let turned = (frame.x * cosine + frame.y * sine) * part * cap.sine;
+                    cap.axis * (1.0 - turned.length_squared()).sqrt() + turned
+                });
+                let is_hidden = |direction: DVec3| {
+                    direction.dot(normal) < -libm::sin(turn)
+                        || caps.iter().any(|cap| direction.dot(cap.axis) >= cap.cosine)
+                };
+                if hemisphere.is_hidden(&cap) {
+                    hidden += 1;
+                    assert!(directions.into_iter().all(is_hidden), "{cap:?}");
+                } else {
+                    seen += 1;
+                }
+            }
+        }
+        assert!(hidden > 500 && seen > 500, "{hidden} {seen}");
+    }
+}

@@ -66,3 +66,62 @@ fn missed(of: &Neighborhood, sphere: &Sphere) -> f64 {
         0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+    use crate::model::sky::Sky;
+    use crate::search::hierarchy::Hierarchy;
+    use crate::soft::point::SurfacePoint;
+    use crate::soft::sky::{shares, sky_light};
+    use crate::soft::visible::Hidden;
+
+    #[test]
+    fn the_list_of_a_square_hides_what_all_spheres_hide() {
+        let mut state = 11_u64;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 * 2_f64.powi(-52) - 1.0
+        };
+        let spheres: Vec<Sphere> = (0..600)
+            .map(|_| {
+                let center = DVec3::new(next(), next(), next());
+                Sphere::new(center, 0.02 + 0.08 * next().abs()).unwrap()
+            })
+            .collect();
+        let hierarchy = Hierarchy::new(&spheres);
+        let occluders = Occluders {
+            spheres: &spheres,
+            hierarchy: &hierarchy,
+        };
+        let sky = Sky::uniform(DVec3::ONE);
+        let mut hidden = Hidden::default();
+        let mut left_out = 0;
+        for number in 0..60 {
+            let own = number * 7;
+            let toward = DVec3::new(next(), next(), next()).normalize();
+            let square = Square::around(own, toward, 1 + (number % 4) as i32);
+            let mut list = List::default();
+            list.fill(&square, &occluders);
+            left_out += spheres.len() - list.found.len();
+            for _ in 0..4 {
+                let normal = square.normal(DVec2::new(next(), next()) * 0.5 + 0.5);
+                let point = SurfacePoint {
+                    position: point(&spheres[own], normal),
+                    normal,
+                    shading: normal,
+                    to_eye: normal,
+                    sphere: own,
+                };
+                let by_list = shares(&sky, &point, &list.bodies, &mut hidden).x;
+                let by_all = sky_light(&sky, &point, Some(&occluders), &mut hidden).x;
+                assert!((by_list - by_all).abs() < 1e-11, "{by_list} {by_all}");
+            }
+        }
+        assert!(left_out > 60 * 200, "{left_out}");
+    }
+}

@@ -166,3 +166,51 @@ impl Node {
 pub(crate) fn point(sphere: &Sphere, normal: DVec3) -> DVec3 {
     sphere.center() + normal * sphere.radius()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_are_found_where_their_squares_say() {
+        for (number, level) in (0..400).zip([0, 1, 2, 5, 20, 36].into_iter().cycle()) {
+            let angle = f64::from(number);
+            let normal = DVec3::new(libm::cos(angle), libm::sin(angle), libm::sin(2.7 * angle));
+            let normal = normal.normalize();
+            let square = Square::around(7, normal, level);
+            let found = square.normal(square.locate(normal));
+            assert!((found - normal).length() < 1e-15, "{square:?}");
+            let (middle, chord) = square.extent();
+            assert!((middle - normal).length() <= chord * (1.0 + 1e-9));
+            if let Some(parent) = square.parent() {
+                let at = DVec2::new(0.25, 0.75);
+                let apart = square.normal(at) - parent.normal(square.in_parent(at));
+                assert!(apart.length() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn squares_share_their_nodes() {
+        let normal = DVec3::new(0.3, -0.2, 0.9).normalize();
+        let square = Square::around(1, normal, 4);
+        let right = Square {
+            place: [square.place[0] + 1, square.place[1]],
+            ..square
+        };
+        for row in 0..3 {
+            assert_eq!(square.node(row, 2), right.node(row, 0));
+        }
+        let parent = right.parent().unwrap();
+        let quarter = right.place.map(|place| (place % 2) as usize);
+        assert_eq!(right.node(0, 0), parent.node(quarter[1], quarter[0]));
+        for (row, col) in [(0, 0), (1, 1), (2, 1), (2, 2)] {
+            let node = square.node(row, col);
+            let place = DVec2::new(col as f64, row as f64) * 0.5;
+            assert!((node.normal() - square.normal(place)).length() < 1e-15);
+            let home = node.home();
+            let (middle, chord) = home.extent();
+            assert!((node.normal() - middle).length() <= chord * (1.0 + 1e-9));
+        }
+    }
+}

@@ -170,11 +170,15 @@ impl Strips {
         let heights = self.heights(light, scene);
         let mut strips = std::mem::take(&mut self.strips);
         strips.clear();
-        for ends in heights.windows(2) {
-            let between = Way {
-                ends: [ends[0].v, ends[1].v],
-                is_root: [ends[0].is_turn, ends[1].is_turn],
-            };
+        let is_root = |height: &Height| {
+            height.is_turn || (light.has_roots_at_seams() && !cell.v.contains(&height.v))
+        };
+        let ways = heights.windows(2).map(|ends| Way {
+            ends: [ends[0].v, ends[1].v],
+            is_root: [is_root(&ends[0]), is_root(&ends[1])],
+        });
+        let ways: Vec<Way> = ways.collect();
+        for between in ways {
             strips.push(self.strip(light, scene, between));
         }
         for _ in 0..MOST_DIVISIONS {
@@ -253,7 +257,12 @@ impl Strips {
                     }
                 }
                 let [before, after] = change.patterns.map(|pattern| pattern.breaks);
-                (0.5 * (below + above), after < before, after > before)
+                let is_root = light.has_roots_at_seams();
+                (
+                    0.5 * (below + above),
+                    is_root || after < before,
+                    is_root || after > before,
+                )
             }
             None => (0.5 * (low + high), false, false),
         };
