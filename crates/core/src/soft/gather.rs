@@ -60,7 +60,7 @@ pub(crate) fn gather(
     // Both closures of the search look at what is hidden.
     let shared = std::cell::RefCell::new((&mut hidden, &mut near));
     hierarchy.any(
-        |boxes| test(of, &shared.borrow().0, boxes),
+        |boxes| test(of, shared.borrow().0, boxes),
         |group| {
             let (hidden, near) = &mut *shared.borrow_mut();
             for &index in hierarchy.indices(group) {
