@@ -46,6 +46,7 @@ mod model;
 mod numeric;
 #[doc(hidden)]
 pub mod parallel;
+mod patches;
 mod picture;
 mod raster;
 mod render;

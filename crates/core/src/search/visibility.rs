@@ -15,7 +15,7 @@ use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::{LightPart, World};
-use crate::soft::patches::Patches;
+use crate::patches::known::Patches;
 
 /// Lengths whose squares are far from over- and underflow.
 const MODERATE: Range<f64> = 1e-35..1e35;

@@ -3,8 +3,8 @@
 use super::bodies::Bodies;
 use super::gather::{Neighborhood, gather};
 use super::point::Occluders;
-use super::square::{Square, point};
 use crate::model::sphere::Sphere;
+use crate::patches::square::{Square, point};
 
 /// Spheres that may hide light from a square.
 #[derive(Clone, Debug, Default)]

@@ -12,7 +12,7 @@
 //! | `rectangle.rs`, `cell.rs` | a pixel or a part of one, and the average over it |
 //! | `curve.rs`, `rule.rs`, `strips.rs` | the same along lines |
 //! | `edges.rs`, `of_sun.rs` | a sun's light in a pixel: the places on a line are found where spheres begin to hide it |
-//! | `square.rs`, `hemisphere.rs`, `gather.rs`, `patch.rs`, `patches.rs`, `of_sky.rs` | a sky's light in a pixel: from points of each sphere that pixels and frames have in common |
+//! | `hemisphere.rs`, `gather.rs`, `bodies.rs`, `list.rs`, `of_sky.rs` | a sky's light in a pixel: from `patches`, whose nodes only some spheres hide light from |
 //! | `doubt.rs` | changes of light that points of a cell may miss |
 //! | `scene.rs`, `picture.rs` | the averages over pixels, by samples or to a tolerance |
 
@@ -33,8 +33,6 @@ mod line;
 mod list;
 mod of_sky;
 mod of_sun;
-mod patch;
-pub(crate) mod patches;
 pub(crate) mod picture;
 mod point;
 mod rectangle;
@@ -42,7 +40,6 @@ mod rule;
 pub(crate) mod scene;
 mod seam;
 mod sky;
-mod square;
 mod strips;
 mod sun;
 mod visible;

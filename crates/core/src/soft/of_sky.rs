@@ -9,19 +9,19 @@ use super::curve::Curve;
 use super::doubt::{Extent, of_bumps, of_small_spheres};
 use super::edges::Break;
 use super::list::List;
-use super::patch::Patch;
-use super::patches::Patches;
 use super::point::{Occluders, SurfacePoint};
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
 use super::rule::integral_along;
 use super::scene::Soft;
-use super::sky::{Shares, light_of, shares, sky_light};
-use super::square::{Node, Square, point};
+use super::sky::{light_of, shares, sky_light};
 use super::visible::Hidden;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::model::sky::Sky;
+use crate::patches::known::Patches;
+use crate::patches::patch::{Patch, Shares};
+use crate::patches::square::{Node, Square, point};
 
 /// Squares of which a thread knows the patch, and the spheres that may hide light from them.
 const KNOWN: usize = 1 << 10;

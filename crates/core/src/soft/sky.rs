@@ -1,18 +1,13 @@
 //! A sky, and the part of its light that reaches a point.
 
-use glam::DVec2;
-
 use super::bodies::Bodies;
 use super::cap::Cap;
 use super::point::{Occluders, SurfacePoint};
 use super::visible::{Hidden, sky_share};
 use crate::model::color::Color;
 use crate::model::sky::Sky;
+use crate::patches::patch::Shares;
 use crate::search::beyond::Beyond;
-
-/// The parts of the light from the lower and from the upper half of a sky that reach a point. Of a sky of one radiance the
-/// first one is that of all of it, and the second one 0.
-pub(crate) type Shares = DVec2;
 
 /// The light that a white matte surface reflects.
 pub(crate) fn light_of(sky: &Sky, shares: Shares) -> Color {

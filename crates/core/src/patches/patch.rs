@@ -12,7 +12,6 @@
 
 use glam::DVec2;
 
-use super::sky::Shares;
 use super::square::Square;
 
 /// Nodes along a side.
@@ -23,6 +22,10 @@ const SIDE: usize = 3;
 const OF_MISSED: f64 = 2.0;
 const OF_LARGEST: f64 = 0.5;
 const OF_BEND: f64 = 0.1;
+
+/// The parts of the light from the lower and from the upper half of a sky that reach a point. Of a sky of one radiance the
+/// first one is that of all of it, and the second one 0.
+pub(crate) type Shares = DVec2;
 
 /// The light at the nodes of a square, as shares of that of the sky's halves, row by row.
 pub(crate) type Grid = [[Shares; SIDE]; SIDE];

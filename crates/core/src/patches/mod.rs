@@ -1,0 +1,11 @@
+//! Light on squares of spheres that does not depend on the view: pixels, threads and frames have it in common.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `square.rs` | squares of a sphere's surface, and the nodes that they have in common |
+//! | `patch.rs` | the light on a square, and what it claims |
+//! | `known.rs` | what is known of them |
+
+pub(crate) mod known;
+pub(crate) mod patch;
+pub(crate) mod square;
