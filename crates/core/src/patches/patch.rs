@@ -81,7 +81,7 @@ fn missed(square: &Square, shares: &Grid, parent: &Grid) -> [[f64; SIDE]; SIDE] 
 fn bend(shares: &Grid) -> f64 {
     let mut bend = Shares::ZERO;
     for index in 0..SIDE {
-        let column = shares.map(|row| row[index]);
+        let column = [shares[0][index], shares[1][index], shares[2][index]];
         for [before, middle, after] in [shares[index], column] {
             bend = bend.max((before - middle * 2.0 + after).abs());
         }
@@ -108,7 +108,9 @@ impl Patch {
             let of_parent = light(&parent);
             claims = missed(square, &shares, &of_parent);
             let least = (OF_LARGEST * largest(&claims)).max(OF_BEND * bend(&shares));
-            claims = claims.map(|row| row.map(|missed| (OF_MISSED * missed).max(least)));
+            for claim in claims.as_flattened_mut() {
+                *claim = (OF_MISSED * *claim).max(least);
+            }
         }
         for claim in claims.as_flattened_mut() {
             *claim = claim.max(of_small_spheres);

@@ -82,7 +82,7 @@ impl Square {
     /// The square of which it is a quarter; none of a whole face.
     pub(crate) fn parent(&self) -> Option<Self> {
         let level = self.level.checked_sub(1)?;
-        let place = self.place.map(|place| place / 2);
+        let place = [self.place[0] / 2, self.place[1] / 2];
         Some(Self {
             level,
             place,
@@ -92,8 +92,8 @@ impl Square {
 
     /// The place in the parent of a place in it.
     pub(crate) fn in_parent(&self, at: DVec2) -> DVec2 {
-        let quarter = self.place.map(|place| (place % 2) as f64);
-        (at + DVec2::from_array(quarter)) * 0.5
+        let [x, y] = self.place;
+        (at + DVec2::new((x % 2) as f64, (y % 2) as f64)) * 0.5
     }
 
     /// One of its 3 × 3 nodes.
@@ -107,7 +107,7 @@ impl Square {
             ..*self
         };
         while corner.level > 0 && corner.place.iter().all(|place| place % 2 == 0) {
-            corner.place = corner.place.map(|place| place / 2);
+            corner.place = [corner.place[0] / 2, corner.place[1] / 2];
             corner.level -= 1;
         }
         Node(corner)
@@ -128,8 +128,11 @@ impl Square {
     pub(crate) fn extent(&self) -> (DVec3, f64) {
         let middle = self.normal(DVec2::splat(0.5));
         let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
-        let chords = corners.map(|(x, y)| (self.normal(DVec2::new(x, y)) - middle).length());
-        (middle, chords.into_iter().fold(0.0, f64::max))
+        let mut longest: f64 = 0.0;
+        for (x, y) in corners {
+            longest = longest.max((self.normal(DVec2::new(x, y)) - middle).length());
+        }
+        (middle, longest)
     }
 }
 
@@ -145,18 +148,20 @@ impl Node {
         self.0.normal(DVec2::ZERO)
     }
 
-    pub(crate) fn hash(&self) -> u64 {
-        self.0.hash().rotate_left(17)
+    /// The square of which it is the first corner.
+    pub(crate) fn corner(&self) -> Square {
+        self.0
     }
 
     /// A square around it: around all nodes of a square, that is the square's parent or one beside it.
     pub(crate) fn home(&self) -> Square {
         let level = self.0.level.saturating_sub(2);
         let last = (1_u64 << level) - 1;
-        let place = self.0.place;
+        let shift = self.0.level - level;
+        let [x, y] = self.0.place;
         Square {
             level,
-            place: place.map(|place| (place >> (self.0.level - level)).min(last)),
+            place: [(x >> shift).min(last), (y >> shift).min(last)],
             ..self.0
         }
     }

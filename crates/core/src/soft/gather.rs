@@ -55,7 +55,7 @@ pub(crate) fn gather(
 ) {
     let nothing = Hemisphere::new(of.normal, of.turn);
     let mut hidden = nothing.clone();
-    let mut near: Vec<(f64, u32)> = Vec::new();
+    let mut near: Vec<f64> = Vec::new();
     let hierarchy = occluders.hierarchy;
     // Both closures of the search look at what is hidden.
     let shared = std::cell::RefCell::new((&mut hidden, &mut near));
@@ -81,15 +81,16 @@ pub(crate) fn gather(
                         hidden.hide(&narrowest);
                     }
                 }
-                near.push(((center - of.middle).length() / radius, index));
+                near.push(key((center - of.middle).length() / radius, index));
             }
             false
         },
     );
-    near.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    near.sort_unstable_by(f64::total_cmp);
     let mut hidden = nothing;
     found.clear();
-    for (_, index) in near {
+    for key in near {
+        let index = key.to_bits() as u32;
         let sphere = &occluders.spheres[index as usize];
         let (center, radius) = (sphere.center(), sphere.radius());
         if let Some(widest) = of.cap_from_any(center, radius) {
@@ -102,6 +103,11 @@ pub(crate) fn gather(
         }
         found.push(index);
     }
+}
+
+/// A number whose last bits are an index, and which is ordered by its first bits.
+fn key(number: f64, index: u32) -> f64 {
+    f64::from_bits(number.to_bits() >> 32 << 32 | u64::from(index))
 }
 
 /// The boxes of which something may be seen.

@@ -20,7 +20,7 @@ use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::model::sky::Sky;
 use crate::patches::known::Patches;
-use crate::patches::patch::{Patch, Shares};
+use crate::patches::patch::{Grid, Patch, Shares};
 use crate::patches::square::{Node, Square, point};
 
 /// Squares of which a thread knows the patch, and the spheres that may hide light from them.
@@ -105,7 +105,7 @@ impl OfSky<'_, '_> {
     /// The light at a node.
     fn node(&mut self, node: &Node, occluders: &Occluders<'_>) -> Shares {
         let patches = self.patches;
-        patches.nodes.of(node, node.hash(), || {
+        patches.node(node, || {
             let home = node.home();
             let (own, normal) = (home.sphere as usize, node.normal());
             let point = SurfacePoint {
@@ -133,17 +133,21 @@ impl OfSky<'_, '_> {
             return Some(Arc::clone(patch));
         }
         let patches = self.patches;
-        let patch = patches.patches.of(square, hash, || {
+        let patch = patches.patch(square, || {
             let around = square.parent().unwrap_or(*square);
             let missed = self.with_list(&around, &occluders, |list, _| {
                 list.missed(square, &occluders)
             });
             let nodes = |square: &Square| {
-                std::array::from_fn(|row| {
-                    std::array::from_fn(|col| self.node(&square.node(row, col), &occluders))
-                })
+                let mut grid = Grid::default();
+                for (row, values) in grid.iter_mut().enumerate() {
+                    for (col, value) in values.iter_mut().enumerate() {
+                        *value = self.node(&square.node(row, col), &occluders);
+                    }
+                }
+                grid
             };
-            Arc::new(Patch::new(square, missed, nodes))
+            Patch::new(square, missed, nodes)
         });
         self.memory.patches[place] = Some((*square, Arc::clone(&patch)));
         Some(patch)
@@ -258,7 +262,7 @@ impl Light for OfSky<'_, '_> {
             error: self.brightest(),
             ..Lit::default()
         };
-        integral_along(curve, [0.0, 1.0], limit, &mut along, |place| {
+        integral_along(curve, [0.0, 1.0], limit, &mut along, &mut |place| {
             self.at(candidate, place).unwrap_or(missed)
         });
         along

@@ -238,7 +238,7 @@ impl Light for OfSun<'_> {
             if end <= from {
                 continue;
             }
-            integral_along(curve, [from, end], limit, &mut along, |at| {
+            integral_along(curve, [from, end], limit, &mut along, &mut |at| {
                 let place = self.place(candidate, &shading, at);
                 Lit {
                     light: self.light(&place, number),

@@ -29,7 +29,7 @@ pub(crate) fn integral_along(
     ends: [f64; 2],
     limit: f64,
     along: &mut Along,
-    mut light: impl FnMut(DVec2) -> Lit,
+    light: &mut dyn FnMut(DVec2) -> Lit,
 ) {
     let length = ends[1] - ends[0];
     let at = |node: f64| ends[0] + length * (0.5 + 0.5 * node);

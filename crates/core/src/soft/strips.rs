@@ -375,10 +375,7 @@ impl Strips {
                 line.pattern.add(0);
                 continue;
             }
-            breaks.sort_unstable_by(|one, other| {
-                let in_place = one.place.total_cmp(&other.place);
-                in_place.then(one.of.cmp(&other.of))
-            });
+            sort(breaks);
             line.pattern.add_breaks(breaks);
             if wants_light {
                 *points += POINTS_OF_CURVE;
@@ -388,6 +385,21 @@ impl Strips {
             }
         }
         line
+    }
+}
+
+/// Sorts few breaks by their places, and those of one place by what they are of.
+fn sort(breaks: &mut [Break]) {
+    let is_before = |one: &Break, other: &Break| {
+        let in_place = one.place.total_cmp(&other.place);
+        in_place.then(one.of.cmp(&other.of)).is_lt()
+    };
+    for end in 1..breaks.len() {
+        let mut at = end;
+        while at > 0 && is_before(&breaks[at], &breaks[at - 1]) {
+            breaks.swap(at, at - 1);
+            at -= 1;
+        }
     }
 }
 
