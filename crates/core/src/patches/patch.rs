@@ -79,12 +79,13 @@ fn missed(square: &Square, shares: &Grid, parent: &Grid) -> [[f64; SIDE]; SIDE] 
 
 /// The largest second difference along rows and columns.
 fn bend(shares: &Grid) -> f64 {
+    let [low, middle, high] = shares;
     let mut bend = Shares::ZERO;
-    for index in 0..SIDE {
-        let column = [shares[0][index], shares[1][index], shares[2][index]];
-        for [before, middle, after] in [shares[index], column] {
-            bend = bend.max((before - middle * 2.0 + after).abs());
-        }
+    for row in shares {
+        bend = bend.max((row[0] - row[1] * 2.0 + row[2]).abs());
+    }
+    for ((before, middle), after) in low.iter().zip(middle).zip(high) {
+        bend = bend.max((*before - *middle * 2.0 + *after).abs());
     }
     bend.max_element()
 }
