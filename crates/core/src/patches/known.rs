@@ -3,14 +3,15 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::patch::{Patch, Shares};
+use super::light::NodeLight;
+use super::patch::Patch;
 use super::square::{Node, Square};
 
 /// Parts that threads may use at a time.
 const SHARDS: usize = 64;
 
-/// What a part knows at most: it forgets all of it then. That is some 300 MiB of all parts. Not tuned.
-const MOST: usize = 1 << 15;
+/// What a part knows at most: it forgets all of it then. That is some 400 MiB of all parts. Not tuned.
+const MOST: usize = 1 << 14;
 
 /// What is known of the light of a world's sky. Each node and each patch is what its place says, whoever makes it, and when.
 #[derive(Debug)]
@@ -18,14 +19,22 @@ pub(crate) struct Patches {
     shards: [Mutex<Known>; SHARDS],
 }
 
-/// By squares, and by those that stand for nodes.
-type Known = HashMap<(Square, bool), Light>;
+/// By squares, which may stand for nodes, and what is known of them.
+type Known = HashMap<(Square, Kind), Light>;
 
-/// The light at a node, or on a square.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+enum Kind {
+    Node,
+    Patch,
+    List,
+}
+
+/// The light at a node, or on a square; or the spheres that may hide light from a square.
 #[derive(Clone, Debug)]
 enum Light {
-    Node(Shares),
+    Node(NodeLight),
     Patch(Arc<Patch>),
+    List(Arc<Vec<u32>>),
 }
 
 impl Default for Patches {
@@ -42,11 +51,11 @@ impl Patches {
         shard.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn get(&self, key: &(Square, bool), hash: u64) -> Option<Light> {
+    fn get(&self, key: &(Square, Kind), hash: u64) -> Option<Light> {
         self.shard(hash).get(key).cloned()
     }
 
-    fn keep(&self, key: (Square, bool), hash: u64, light: Light) {
+    fn keep(&self, key: (Square, Kind), hash: u64, light: Light) {
         let mut known = self.shard(hash);
         if known.len() >= MOST {
             known.clear();
@@ -55,24 +64,35 @@ impl Patches {
     }
 
     /// The light at a node, made if it is not known yet. Two threads may make the same.
-    pub(crate) fn node(&self, node: &Node, make: impl FnOnce() -> Shares) -> Shares {
-        let (key, hash) = ((node.corner(), true), node.corner().hash());
-        if let Some(Light::Node(shares)) = self.get(&key, hash) {
-            return shares;
+    pub(crate) fn node(&self, node: &Node, make: impl FnOnce() -> NodeLight) -> NodeLight {
+        let (key, hash) = ((node.corner(), Kind::Node), node.corner().hash());
+        if let Some(Light::Node(light)) = self.get(&key, hash) {
+            return light;
         }
-        let shares = make();
-        self.keep(key, hash, Light::Node(shares));
-        shares
+        let light = make();
+        self.keep(key, hash, Light::Node(light));
+        light
     }
 
     /// The patch of a square, made if it is not known yet. Two threads may make the same.
     pub(crate) fn patch(&self, square: &Square, make: impl FnOnce() -> Patch) -> Arc<Patch> {
-        let (key, hash) = ((*square, false), square.hash());
+        let (key, hash) = ((*square, Kind::Patch), square.hash());
         if let Some(Light::Patch(patch)) = self.get(&key, hash) {
             return patch;
         }
         let patch = Arc::new(make());
         self.keep(key, hash, Light::Patch(Arc::clone(&patch)));
         patch
+    }
+
+    /// The spheres that may hide light from a square, found if they are not known yet. Two threads may find the same.
+    pub(crate) fn list(&self, square: &Square, find: impl FnOnce() -> Vec<u32>) -> Arc<Vec<u32>> {
+        let (key, hash) = ((*square, Kind::List), square.hash());
+        if let Some(Light::List(list)) = self.get(&key, hash) {
+            return list;
+        }
+        let list = Arc::new(find());
+        self.keep(key, hash, Light::List(Arc::clone(&list)));
+        list
     }
 }

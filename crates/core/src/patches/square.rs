@@ -50,7 +50,7 @@ impl Square {
     }
 
     /// The coarsest level whose squares at a normal are no wider than an angle in radians.
-    pub(crate) fn level(normal: DVec3, angle: f64) -> i32 {
+    pub(crate) fn level_of(normal: DVec3, angle: f64) -> i32 {
         let (_, _, at) = face(normal);
         // A square of a face is seen under an angle that is smaller by this factor.
         let square = 1.0 + at.length_squared();
@@ -77,6 +77,10 @@ impl Square {
         let side = libm::scalbn(1.0, self.level.into());
         let place = DVec2::new(self.place[0] as f64, self.place[1] as f64);
         ((at + 1.0) * (0.5 * side) - place).clamp(DVec2::ZERO, DVec2::ONE)
+    }
+
+    pub(crate) fn level(&self) -> u8 {
+        self.level
     }
 
     /// The square of which it is a quarter; none of a whole face.
@@ -153,15 +157,24 @@ impl Node {
         self.0
     }
 
-    /// A square around it: around all nodes of a square, that is the square's parent or one beside it.
+    /// A square around it of which the spheres are found that may hide light from it: if it is small, the parent of a square
+    /// whose node it is, or one beside that.
     pub(crate) fn home(&self) -> Square {
-        let level = self.0.level.saturating_sub(2);
+        /// From wider squares more spheres are seen.
+        const WIDEST: u8 = 2;
+        let level = self.0.level.saturating_sub(2).max(WIDEST);
         let last = (1_u64 << level) - 1;
-        let shift = self.0.level - level;
+        let at_level = |place: u64| {
+            if level > self.0.level {
+                place << (level - self.0.level)
+            } else {
+                place >> (self.0.level - level)
+            }
+        };
         let [x, y] = self.0.place;
         Square {
             level,
-            place: [(x >> shift).min(last), (y >> shift).min(last)],
+            place: [at_level(x).min(last), at_level(y).min(last)],
             ..self.0
         }
     }

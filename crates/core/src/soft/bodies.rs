@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
-use super::cap::Cap;
+use super::cap::{Cap, NO_SPHERE};
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{LANES, Lanes as _, f64x8};
@@ -23,6 +23,7 @@ pub(crate) struct Bodies {
 struct Group {
     center: [[f64; LANES]; 3],
     radius: [f64; LANES],
+    number: [u32; LANES],
 }
 
 impl Default for Bodies {
@@ -41,12 +42,14 @@ impl Bodies {
         self.count = 0;
     }
 
-    pub(crate) fn push(&mut self, sphere: &Sphere) {
+    /// Adds a sphere, and its number.
+    pub(crate) fn push(&mut self, sphere: &Sphere, number: u32) {
         let lane = self.count % LANES;
         if lane == 0 {
             self.groups.push(Group {
                 center: [[0.0; LANES]; 3],
                 radius: [f64::NEG_INFINITY; LANES],
+                number: [NO_SPHERE; LANES],
             });
         }
         if let Some(last) = self.groups.last_mut() {
@@ -54,6 +57,7 @@ impl Bodies {
                 lanes[lane] = number;
             }
             last.radius[lane] = sphere.radius();
+            last.number[lane] = number;
         }
         self.count += 1;
     }
@@ -99,6 +103,7 @@ fn all_caps<S: Simd>(
                 sine: sine[lane],
                 cosine: cosine[lane],
                 versine: versine[lane],
+                sphere: group.number[lane],
             });
         }
     }

@@ -11,7 +11,12 @@ pub(crate) struct Cap {
     pub(crate) sine: f64,
     pub(crate) cosine: f64,
     pub(crate) versine: f64,
+    /// The number of the sphere that lies there, or [`NO_SPHERE`].
+    pub(crate) sphere: u32,
 }
+
+/// Stands for the sphere of a cap that is none's.
+pub(crate) const NO_SPHERE: u32 = u32::MAX;
 
 /// The versine of the angle between axes from which on their sum is used. Caps so far apart that touch are wide ones: both
 /// formulas are accurate there.
@@ -77,6 +82,7 @@ impl Cap {
             sine,
             cosine,
             versine: sine * sine / (1.0 + cosine),
+            sphere: NO_SPHERE,
         }
     }
 
@@ -87,6 +93,7 @@ impl Cap {
             sine: 1.0,
             cosine: 0.0,
             versine: 1.0,
+            sphere: NO_SPHERE,
         }
     }
 
@@ -98,6 +105,7 @@ impl Cap {
             sine,
             cosine,
             versine: sine * sine / (1.0 + cosine),
+            sphere: NO_SPHERE,
         }
     }
 

@@ -4,6 +4,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::candidate::Candidate;
 use super::edges::Height;
+use super::gather::Neighborhood;
 use super::point::{Occluders, SurfacePoint};
 use super::sun::Sun;
 use crate::light::shading_normal::ShadingNormal;
@@ -184,6 +185,42 @@ pub(crate) fn of_speck(height: &Height, radius: f64, around: f64) -> f64 {
     // Half of the cell's area is at least that of the size's square.
     let part = size / around;
     (part * part * (depth * depth).min(1.0)).min(1.0)
+}
+
+/// What small spheres beside a cell, or above it, darken of a smooth surface between points some part of its size apart.
+pub(crate) fn of_shadows(
+    extent: &Extent,
+    spacing: f64,
+    sphere: usize,
+    occluders: Option<&Occluders<'_>>,
+) -> f64 {
+    /// Farther away, in parts of the spacing, points tell.
+    const NEAR: f64 = 3.0;
+    let Some(occluders) = occluders else {
+        return 0.0;
+    };
+    let of = Neighborhood {
+        middle: extent.middle,
+        around: extent.around,
+        normal: extent.normal,
+        turn: extent.turn,
+    };
+    let near = Beyond::Ball {
+        center: of.middle,
+        radius: (1.0 + NEAR * spacing) * of.around,
+    };
+    let mut doubt: f64 = 0.0;
+    occluders
+        .hierarchy
+        .for_each_beyond(occluders.spheres, &near, |index| {
+            if occluders.may_hide(index, sphere) {
+                let other = &occluders.spheres[index];
+                // The part of a long cell that lies about as near to it as its size.
+                let part = (2.0 * other.radius() / of.around).min(1.0);
+                doubt = doubt.max(of.missed(other, spacing) * part);
+            }
+        });
+    doubt
 }
 
 /// Small spheres right above a cell.

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::cap::Cap;
 use super::hemisphere::Hemisphere;
 use super::point::Occluders;
+use crate::model::sphere::Sphere;
 use crate::search::hierarchy::BoxTest;
 use crate::search::hierarchy::boxes::Boxes;
 use crate::search::hierarchy::is_sphere;
@@ -43,18 +44,32 @@ impl Neighborhood {
         let reach = radius - self.around - SLACK * self.middle.abs().max_element();
         (reach > 0.0).then(|| Cap::of_sphere(center - self.middle, reach))
     }
+
+    /// The share of a sky's light that a sphere may darken between points of the surface that tell nothing of it: points some
+    /// part of `around` apart.
+    pub(crate) fn missed(&self, sphere: &Sphere, spacing: f64) -> f64 {
+        let spacing = spacing * self.around;
+        let radius = sphere.radius();
+        if radius >= spacing {
+            return 0.0;
+        }
+        let to_center = sphere.center() - self.middle;
+        // The height of the center above the surface.
+        let curvature = self.turn / self.around;
+        let height = to_center.dot(self.normal) + 0.5 * curvature * to_center.length_squared();
+        let height = height.abs().max(radius);
+        let distance = (to_center.length() - self.around).max(height);
+        let (size, rise) = (radius / distance, height / distance);
+        // What it hides falls with the third power of the distance: so far away points tell.
+        let between = (spacing / distance).min(1.0);
+        size * size * rise * (between * between * between)
+    }
 }
 
 /// Finds all spheres that hide light from some point of a part of a sphere, and perhaps others: not those of which it is
 /// known that others hide them from all of its points. Those that look largest come first.
-pub(crate) fn gather(
-    occluders: &Occluders<'_>,
-    own: usize,
-    of: &Neighborhood,
-    found: &mut Vec<u32>,
-) {
-    let nothing = Hemisphere::new(of.normal, of.turn);
-    let mut hidden = nothing.clone();
+pub(crate) fn gather(occluders: &Occluders<'_>, own: usize, of: &Neighborhood) -> Vec<u32> {
+    let mut hidden = Hemisphere::new(of.normal, of.turn);
     let mut near: Vec<f64> = Vec::new();
     let hierarchy = occluders.hierarchy;
     // Both closures of the search look at what is hidden.
@@ -87,12 +102,21 @@ pub(crate) fn gather(
         },
     );
     near.sort_unstable_by(f64::total_cmp);
-    let mut hidden = nothing;
-    found.clear();
-    for key in near {
-        let index = key.to_bits() as u32;
-        let sphere = &occluders.spheres[index as usize];
+    let near: Vec<u32> = near.iter().map(|key| key.to_bits() as u32).collect();
+    select(occluders.spheres, &near, of)
+}
+
+/// Finds those of some spheres of which it is not known that the ones before them hide them from all points of a part of a
+/// surface.
+pub(crate) fn select(spheres: &[Sphere], among: &[u32], of: &Neighborhood) -> Vec<u32> {
+    let mut hidden = Hemisphere::new(of.normal, of.turn);
+    let mut found = Vec::with_capacity(among.len());
+    for &index in among {
+        let sphere = &spheres[index as usize];
         let (center, radius) = (sphere.center(), sphere.radius());
+        if !of.may_be_above(center, radius) {
+            continue;
+        }
         if let Some(widest) = of.cap_from_any(center, radius) {
             if hidden.is_hidden(&widest) {
                 continue;
@@ -103,6 +127,7 @@ pub(crate) fn gather(
         }
         found.push(index);
     }
+    found
 }
 
 /// A number whose last bits are an index, and which is ordered by its first bits.

@@ -8,8 +8,12 @@ use glam::{DVec2, DVec3};
 
 use super::cap::{Cap, Frame};
 
-/// Cells along a side: the bits of a number.
+/// Cells along a row: the bits of a number.
 const SIDE: usize = 64;
+
+/// Rows, and how many times as tall as wide a cell is. A row takes more time than cells do.
+const ROWS: usize = 32;
+const TALL: f64 = (SIDE / ROWS) as f64;
 
 /// What rounding may move a circle by.
 const SLACK: f64 = 1e-9;
@@ -22,10 +26,10 @@ pub(crate) struct Hemisphere {
     /// Half of the grid's side.
     reach: f64,
     /// The cells that are hidden, as bits of a row.
-    rows: [u64; SIDE],
+    rows: [u64; ROWS],
 }
 
-/// A disc of the grid, in cells.
+/// A disc of the grid, in widths of cells.
 #[derive(Clone, Copy, Debug)]
 struct Disc {
     center: DVec2,
@@ -53,7 +57,7 @@ impl Hemisphere {
             frame: Cap::below(-normal).frame(),
             normal,
             reach,
-            rows: [0; SIDE],
+            rows: [0; ROWS],
         };
         if turn < MOST {
             let middle = 0.5 * SIDE as f64;
@@ -103,9 +107,9 @@ impl Hemisphere {
 impl Disc {
     /// The rows that it may touch.
     fn rows(&self) -> std::ops::Range<usize> {
-        let side = SIDE as f64;
-        let low = (self.center.y - self.radius).clamp(0.0, side);
-        let high = (self.center.y + self.radius + 1.0).clamp(0.0, side);
+        let last = ROWS as f64;
+        let low = ((self.center.y - self.radius) / TALL).clamp(0.0, last);
+        let high = ((self.center.y + self.radius) / TALL + 1.0).clamp(0.0, last);
         low as usize..high as usize
     }
 
@@ -117,8 +121,8 @@ impl Disc {
 
     /// The cells of a row that it may touch.
     fn touched(&self, row: usize) -> u64 {
-        let low = row as f64 - self.center.y;
-        let apart = low.max(-1.0 - low).max(0.0);
+        let low = row as f64 * TALL - self.center.y;
+        let apart = low.max(-TALL - low).max(0.0);
         match self.half(apart) {
             Some(half) => bits(self.center.x - half, self.center.x + half + 1.0),
             None => 0,
@@ -127,8 +131,8 @@ impl Disc {
 
     /// The cells of a row that lie inside of it.
     fn filled(&self, row: usize) -> u64 {
-        let low = row as f64 - self.center.y;
-        let apart = low.abs().max((low + 1.0).abs());
+        let low = row as f64 * TALL - self.center.y;
+        let apart = low.abs().max((low + TALL).abs());
         match self.half(apart) {
             Some(half) => bits(self.center.x - half + 1.0, self.center.x + half),
             None => 0,

@@ -1,37 +1,45 @@
 //! The spheres that may hide light from a square of a sphere.
 
 use super::bodies::Bodies;
-use super::gather::{Neighborhood, gather};
+use super::gather::{Neighborhood, gather, select};
 use super::point::Occluders;
 use crate::model::sphere::Sphere;
 use crate::patches::square::{Square, point};
 
-/// Spheres that may hide light from a square.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct List {
-    pub(crate) bodies: Bodies,
-    found: Vec<u32>,
+/// The level of the squares whose lists are gathered from all spheres. From wider ones spheres hide little.
+pub(crate) const GATHERED: u8 = 2;
+
+/// The spheres that may hide light from a square, found among all.
+pub(crate) fn gathered(square: &Square, occluders: &Occluders<'_>) -> Vec<u32> {
+    let own = square.sphere as usize;
+    let of = neighborhood(square, &occluders.spheres[own]);
+    gather(occluders, own, &of)
 }
 
-impl List {
-    /// Makes it that of a square.
-    pub(crate) fn fill(&mut self, square: &Square, occluders: &Occluders<'_>) {
-        let own = square.sphere as usize;
-        let of = neighborhood(square, &occluders.spheres[own]);
-        gather(occluders, own, &of, &mut self.found);
-        self.bodies.clear();
-        for &index in &self.found {
-            self.bodies.push(&occluders.spheres[index as usize]);
-        }
-    }
+/// Those that may hide light from a square, of those that may hide it from a square around it.
+pub(crate) fn of_part(list: &[u32], square: &Square, occluders: &Occluders<'_>) -> Vec<u32> {
+    let of = neighborhood(square, &occluders.spheres[square.sphere as usize]);
+    select(occluders.spheres, list, &of)
+}
 
-    /// The share of the light that small ones may darken between the nodes of a square, which is a part of the list's.
-    pub(crate) fn missed(&self, square: &Square, occluders: &Occluders<'_>) -> f64 {
-        let of = neighborhood(square, &occluders.spheres[square.sphere as usize]);
-        let found = self.found.iter();
-        let missed = found.map(|&index| missed(&of, &occluders.spheres[index as usize]));
-        missed.fold(0.0, f64::max)
+/// Puts the spheres of a list side by side.
+pub(crate) fn arrange(list: &[u32], occluders: &Occluders<'_>, bodies: &mut Bodies) {
+    bodies.clear();
+    for &index in list {
+        bodies.push(&occluders.spheres[index as usize], index);
     }
+}
+
+/// The share of the light that small ones may darken between the nodes of a square.
+pub(crate) fn missed(list: &[u32], square: &Square, occluders: &Occluders<'_>) -> f64 {
+    /// The distance between nodes, in parts of that of corners from the middle, and a little more.
+    const SPACING: f64 = 0.75;
+    let of = neighborhood(square, &occluders.spheres[square.sphere as usize]);
+    let mut missed: f64 = 0.0;
+    for &index in list {
+        missed = missed.max(of.missed(&occluders.spheres[index as usize], SPACING));
+    }
+    missed
 }
 
 /// The part of the world that a square is.
@@ -43,27 +51,6 @@ fn neighborhood(square: &Square, sphere: &Sphere) -> Neighborhood {
         normal,
         // The angle of a chord, and a little more.
         turn: chord * (1.0 + 0.1 * chord * chord),
-    }
-}
-
-/// What a small sphere near a square may darken between its nodes.
-fn missed(of: &Neighborhood, sphere: &Sphere) -> f64 {
-    /// The distance between nodes, in parts of that of corners from the middle, and a little more.
-    const SPACING: f64 = 0.75;
-    let spacing = SPACING * of.around;
-    let to_center = sphere.center() - of.middle;
-    let radius = sphere.radius();
-    if radius >= spacing || to_center.length() > of.around + radius + spacing {
-        return 0.0;
-    }
-    // The height of the center above the surface.
-    let curvature = of.turn / of.around;
-    let height = to_center.dot(of.normal) + 0.5 * curvature * to_center.length_squared();
-    let height = height.abs().max(radius);
-    if height < spacing {
-        (radius / height) * (radius / height)
-    } else {
-        0.0
     }
 }
 
@@ -105,9 +92,10 @@ mod tests {
             let own = number * 7;
             let toward = DVec3::new(next(), next(), next()).normalize();
             let square = Square::around(own, toward, 1 + (number % 4) as i32);
-            let mut list = List::default();
-            list.fill(&square, &occluders);
-            left_out += spheres.len() - list.found.len();
+            let list = gathered(&square, &occluders);
+            let mut bodies = Bodies::default();
+            arrange(&list, &occluders, &mut bodies);
+            left_out += spheres.len() - list.len();
             for _ in 0..4 {
                 let normal = square.normal(DVec2::new(next(), next()) * 0.5 + 0.5);
                 let point = SurfacePoint {
@@ -117,7 +105,7 @@ mod tests {
                     to_eye: normal,
                     sphere: own,
                 };
-                let by_list = shares(&sky, &point, &list.bodies, &mut hidden).x;
+                let by_list = shares(&sky, &point, &bodies, &mut hidden, &mut |_, _| {}).x;
                 let by_all = sky_light(&sky, &point, Some(&occluders), &mut hidden).x;
                 assert!((by_list - by_all).abs() < 1e-11, "{by_list} {by_all}");
             }

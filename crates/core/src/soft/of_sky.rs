@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::bodies::Bodies;
 use super::candidate::Candidate;
 use super::curve::Curve;
-use super::doubt::{Extent, of_bumps, of_small_spheres};
+use super::doubt::{Extent, of_bumps, of_shadows, of_small_spheres};
 use super::edges::Break;
-use super::list::List;
+use super::list::{GATHERED, arrange, gathered, missed, of_part};
 use super::point::{Occluders, SurfacePoint};
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
 use super::rule::integral_along;
@@ -20,18 +21,23 @@ use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::model::sky::Sky;
 use crate::patches::known::Patches;
-use crate::patches::patch::{Grid, Patch, Shares};
-use crate::patches::square::{Node, Square, point};
+use crate::patches::light::{NodeLight, Shares, Slope, height_and_cosine};
+use crate::patches::model::Grid;
+use crate::patches::patch::Patch;
+use crate::patches::square::{Node, Square, point as point_of};
 
 /// Squares of which a thread knows the patch, and the spheres that may hide light from them.
 const KNOWN: usize = 1 << 10;
-const KNOWN_LISTS: usize = 1 << 7;
+const KNOWN_LISTS: usize = 1 << 12;
 
 /// What a thread keeps for skies.
 #[derive(Debug)]
 pub(crate) struct SkyMemory {
     patches: Vec<Option<(Square, Arc<Patch>)>>,
-    lists: Vec<Option<(Square, List)>>,
+    lists: Vec<Option<(Square, Arc<Vec<u32>>)>>,
+    /// The spheres of a square's list side by side.
+    arranged: Option<Square>,
+    bodies: Bodies,
 }
 
 impl Default for SkyMemory {
@@ -39,6 +45,8 @@ impl Default for SkyMemory {
         Self {
             patches: vec![None; KNOWN],
             lists: vec![None; KNOWN_LISTS],
+            arranged: None,
+            bodies: Bodies::default(),
         }
     }
 }
@@ -48,12 +56,13 @@ impl SkyMemory {
     pub(crate) fn begin(&mut self) {
         self.patches.fill(None);
         self.lists.fill(None);
+        self.arranged = None;
     }
 }
 
 /// The width of the squares that are tried first, in pixels and in radians.
 const WIDEST: f64 = 16.0;
-const WIDEST_ANGLE: f64 = 0.8;
+const WIDEST_ANGLE: f64 = 0.5;
 
 /// That of the last ones, in parts of a cell. Not tuned.
 const NARROWEST: f64 = 0.25;
@@ -83,42 +92,61 @@ impl OfSky<'_, '_> {
         ShadingNormal::new(self.soft.world, candidate.sphere, self.key)
     }
 
-    /// Calls `act` with the spheres that may hide light from a square.
-    fn with_list<T>(
-        &mut self,
-        square: &Square,
-        occluders: &Occluders<'_>,
-        act: impl FnOnce(&List, &mut Hidden) -> T,
-    ) -> T {
-        let known = &mut self.memory.lists[square.hash() as usize % KNOWN_LISTS];
-        let list = match known {
-            Some((of, list)) if of == square => list,
-            _ => {
-                let mut list = known.take().map(|(_, list)| list).unwrap_or_default();
-                list.fill(square, occluders);
-                &mut known.insert((*square, list)).1
+    /// The spheres that may hide light from a square.
+    ///
+    /// The list of a square of some level is gathered from all spheres, those of smaller ones from the list of a square that
+    /// they are a part of: so a list is what its square says, whatever was made before.
+    fn list(&mut self, square: &Square, occluders: &Occluders<'_>) -> Arc<Vec<u32>> {
+        let place = square.hash() as usize % KNOWN_LISTS;
+        if let Some((of, list)) = &self.memory.lists[place]
+            && of == square
+        {
+            return Arc::clone(list);
+        }
+        let list = match square.parent() {
+            Some(around) if square.level() > GATHERED => {
+                Arc::new(of_part(&self.list(&around, occluders), square, occluders))
             }
+            _ => self.patches.list(square, || gathered(square, occluders)),
         };
-        act(list, self.hidden)
+        self.memory.lists[place] = Some((*square, Arc::clone(&list)));
+        list
     }
 
     /// The light at a node.
-    fn node(&mut self, node: &Node, occluders: &Occluders<'_>) -> Shares {
+    fn node(&mut self, node: &Node, occluders: &Occluders<'_>) -> NodeLight {
         let patches = self.patches;
         patches.node(node, || {
             let home = node.home();
             let (own, normal) = (home.sphere as usize, node.normal());
             let point = SurfacePoint {
-                position: point(&occluders.spheres[own], normal),
+                position: point_of(&occluders.spheres[own], normal),
                 normal,
                 shading: normal,
                 to_eye: normal,
                 sphere: own,
             };
             let sky = self.sky;
-            self.with_list(&home, occluders, |list, hidden| {
-                shares(sky, &point, &list.bodies, hidden)
-            })
+            let mut light = NodeLight::default();
+            let mut add = |sphere: u32, by_cosine: Shares| {
+                let Some(near) = occluders.spheres.get(sphere as usize) else {
+                    return;
+                };
+                let (height, _) = height_and_cosine(near, point.position);
+                light.add(Slope {
+                    sphere: Some(sphere),
+                    height: height as f32,
+                    by_cosine,
+                });
+            };
+            if self.memory.arranged != Some(home) {
+                let list = self.list(&home, occluders);
+                arrange(&list, occluders, &mut self.memory.bodies);
+                self.memory.arranged = Some(home);
+            }
+            let bodies = &self.memory.bodies;
+            let shares = shares(sky, &point, bodies, self.hidden, &mut add);
+            NodeLight { shares, ..light }
         })
     }
 
@@ -134,12 +162,10 @@ impl OfSky<'_, '_> {
         }
         let patches = self.patches;
         let patch = patches.patch(square, || {
-            let around = square.parent().unwrap_or(*square);
-            let missed = self.with_list(&around, &occluders, |list, _| {
-                list.missed(square, &occluders)
-            });
-            let nodes = |square: &Square| {
-                let mut grid = Grid::default();
+            let list = self.list(square, &occluders);
+            let missed = missed(&list, square, &occluders);
+            let mut nodes = |square: &Square| {
+                let mut grid = Grid::<NodeLight>::default();
                 for (row, values) in grid.iter_mut().enumerate() {
                     for (col, value) in values.iter_mut().enumerate() {
                         *value = self.node(&square.node(row, col), &occluders);
@@ -147,7 +173,7 @@ impl OfSky<'_, '_> {
                 }
                 grid
             };
-            Patch::new(square, missed, nodes)
+            Patch::new(square, missed, occluders.spheres, &mut nodes)
         });
         self.memory.patches[place] = Some((*square, Arc::clone(&patch)));
         Some(patch)
@@ -168,7 +194,8 @@ impl OfSky<'_, '_> {
         let is_whole = self.side > 0.75 * self.pixel;
         let most = self.allowed * if is_whole { OF_WHOLE } else { OF_PARTS };
         let mut width = (WIDEST * self.pixel * unit).min(WIDEST_ANGLE);
-        let [first, last] = [width, NARROWEST * cell].map(|angle| Square::level(normal, angle));
+        let [first, last] = [width, NARROWEST * cell].map(|angle| Square::level_of(normal, angle));
+        let first = first.max(GATHERED.into());
         for level in first..=last.max(first) {
             let square = Square::around(candidate.sphere, normal, level);
             let at = square.locate(normal);
@@ -176,7 +203,9 @@ impl OfSky<'_, '_> {
             let patch = self.patch(&square)?;
             let claim = patch.claim_at(at);
             if claim <= allowed || level >= last {
-                return Some((patch.at(at), claim));
+                let spheres = self.soft.world.spheres();
+                let position = point_of(&spheres[candidate.sphere], normal);
+                return Some((patch.at(at, position, spheres), claim));
             }
             width *= 0.5;
         }
@@ -214,17 +243,20 @@ impl Light for OfSky<'_, '_> {
 
     fn doubt(&mut self, candidate: &Candidate, cell: &Cell, spacing: f64) -> f64 {
         let shading = self.shading(candidate);
-        if shading.is_smooth() {
-            return 0.0;
-        }
         let soft = self.soft;
         let scale = libm::scalbn(1.0, soft.index.length_exponent());
         let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
         let axes = &soft.view.camera.world_from_camera;
         let mut extent = extent.in_world(axes, soft.view.camera.position, scale);
-        let of_spheres = of_small_spheres(&extent, candidate.sphere, soft.occluders().as_ref());
-        extent.turn *= spacing;
-        of_bumps(&extent, &shading).max(of_spheres) * self.brightest()
+        let (sphere, occluders) = (candidate.sphere, soft.occluders());
+        let doubt = if shading.is_smooth() {
+            of_shadows(&extent, spacing, sphere, occluders.as_ref())
+        } else {
+            let of_spheres = of_small_spheres(&extent, sphere, occluders.as_ref());
+            extent.turn *= spacing;
+            of_bumps(&extent, &shading).max(of_spheres)
+        };
+        doubt * self.brightest()
     }
 
     /// Patches know what they are asked for often, and how finely depends on the cell.

@@ -21,7 +21,7 @@ const KRONROD: [[f64; 2]; 4] = [
 ];
 
 /// The claim of a part of a curve, in parts of the second difference of its nodes. Not tuned.
-const OF_BEND: f64 = 0.03;
+const OF_BEND: f64 = 0.06;
 
 /// Adds the integral of light along a part of a curve, and its claim; the limit is for the claim in parts of the length.
 pub(crate) fn integral_along(

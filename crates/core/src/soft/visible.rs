@@ -1,6 +1,5 @@
 //! Integrals over the directions that no sphere hides.
 
-use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
@@ -21,6 +20,8 @@ pub(crate) struct Hidden {
     /// The caps that were left, side by side.
     circles: Circles,
     arcs: CoveredArcs,
+    /// How the last integral over all directions changes with the cosines of the caps whose circles are visible.
+    slopes: Vec<(u32, DVec3)>,
 }
 
 /// What happens to the integral over visible directions if a cap changes.
@@ -72,24 +73,6 @@ impl Hidden {
         self.caps.truncate(count);
     }
 
-    /// Leaves out all caps that another one contains, and puts the others into an order that does not depend on that in
-    /// which they came.
-    pub(crate) fn leave_out_contained(&mut self) {
-        let Self { caps, circles, .. } = self;
-        caps.sort_unstable_by(widest_first);
-        circles.clear();
-        let mut kept = 0;
-        for index in 0..caps.len() {
-            let cap = caps[index];
-            if !is_contained(&cap, circles, &caps[..kept]) {
-                circles.push(&cap);
-                caps[kept] = cap;
-                kept += 1;
-            }
-        }
-        caps.truncate(kept);
-    }
-
     /// Puts the caps side by side.
     fn arrange(&mut self) {
         self.circles.clear();
@@ -105,20 +88,22 @@ impl Hidden {
     /// circle around a cap with the axis a contributes ½ P × Q and the segment between the arc and its chord, ½ s² (φ − sin φ) a,
     /// with the sine s of the cap's angle and the angle φ of the arc.
     pub(crate) fn seen(&mut self) -> DVec3 {
-        self.seen_with(|_, _| {})
-    }
-
-    /// The same, with the derivative of the integral by the cosine of each cap whose circle is visible.
-    pub(crate) fn seen_with(&mut self, mut visit: impl FnMut(&Cap, DVec3)) -> DVec3 {
         self.arrange();
+        self.slopes.clear();
         let mut sum = DVec3::ZERO;
         for index in 0..self.caps.len() {
             if let Some(border) = self.along(index, None, DVec3::ZERO) {
                 sum -= border.part;
-                visit(&self.caps[index], border.by_cosine);
+                self.slopes
+                    .push((self.caps[index].sphere, border.by_cosine));
             }
         }
         sum
+    }
+
+    /// The spheres whose circles are visible, with the derivatives of the last [`seen`](Self::seen) by the cosines of their caps.
+    pub(crate) fn slopes(&self) -> &[(u32, DVec3)] {
+        &self.slopes
     }
 
     /// The same integral over the directions within a disc.
@@ -196,26 +181,6 @@ impl Hidden {
         }
         integral(&self.arcs, disc, &frame, disc.axis).part
     }
-}
-
-/// True if one of some wider caps, which `circles` are of, contains a cap.
-fn is_contained(cap: &Cap, circles: &Circles, wider: &[Cap]) -> bool {
-    (0..circles.blocks()).any(|block| {
-        let found = circles.block(cap, block);
-        found.around != 0
-            || set_bits(found.unsure).any(|bit| {
-                let meeting = cap.meeting(&wider[block * BLOCK + bit], false);
-                matches!(meeting, Meeting::Inside)
-            })
-    })
-}
-
-/// The order of caps by their angles, and of equal ones by their axes.
-fn widest_first(one: &Cap, other: &Cap) -> Ordering {
-    other.versine.total_cmp(&one.versine).then_with(|| {
-        let by = |axis: usize| one.axis[axis].total_cmp(&other.axis[axis]);
-        by(0).then_with(|| by(1)).then_with(|| by(2))
-    })
 }
 
 /// ½ ∮ (r − o) × dr and ∫ r dφ along the arcs of a circle that are not covered, counterclockwise.
