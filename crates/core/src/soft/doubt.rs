@@ -187,24 +187,20 @@ pub(crate) fn of_speck(height: &Height, radius: f64, around: f64) -> f64 {
     (part * part * (depth * depth).min(1.0)).min(1.0)
 }
 
-/// What small spheres beside a cell, or above it, darken of a smooth surface between points some part of its size apart.
+/// What small spheres beside a part of a smooth surface, or above it, darken between points some part of its size apart.
 pub(crate) fn of_shadows(
-    extent: &Extent,
+    of: &Neighborhood,
     spacing: f64,
     sphere: usize,
     occluders: Option<&Occluders<'_>>,
 ) -> f64 {
-    /// Farther away, in parts of the spacing, points tell.
+    /// Of spheres that are larger, in parts of the distance between points, or farther away, points tell.
+    const WIDEST: f64 = 2.0;
     const NEAR: f64 = 3.0;
     let Some(occluders) = occluders else {
         return 0.0;
     };
-    let of = Neighborhood {
-        middle: extent.middle,
-        around: extent.around,
-        normal: extent.normal,
-        turn: extent.turn,
-    };
+    let spacing = WIDEST * spacing;
     let near = Beyond::Ball {
         center: of.middle,
         radius: (1.0 + NEAR * spacing) * of.around,

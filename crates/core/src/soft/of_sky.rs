@@ -9,6 +9,7 @@ use super::candidate::Candidate;
 use super::curve::Curve;
 use super::doubt::{Extent, of_bumps, of_shadows, of_small_spheres};
 use super::edges::Break;
+use super::gather::Neighborhood;
 use super::list::{GATHERED, arrange, gathered, missed, of_part};
 use super::point::{Occluders, SurfacePoint};
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
@@ -212,6 +213,31 @@ impl OfSky<'_, '_> {
         None
     }
 
+    /// What corners and the middle of a cell see of a sphere, in the world's frame.
+    ///
+    /// An [`Extent`] is a bound, and much larger where a huge sphere is seen at a grazing angle.
+    fn seen(&self, candidate: &Candidate, cell: &Cell) -> Neighborhood {
+        let axes = &self.soft.view.camera.world_from_camera;
+        let sphere = &self.soft.world.spheres()[candidate.sphere];
+        let normal_at = |at: DVec2| {
+            let point = candidate.surface_point(at.x, at.y, self.projection);
+            *axes * point.normal
+        };
+        let normal = normal_at(cell.middle());
+        let mut turn: f64 = 0.0;
+        for u in cell.u {
+            for v in cell.v {
+                turn = turn.max((normal_at(DVec2::new(u, v)) - normal).length());
+            }
+        }
+        Neighborhood {
+            middle: point_of(sphere, normal),
+            around: turn * sphere.radius(),
+            normal,
+            turn,
+        }
+    }
+
     /// The light at a place from the caps of all spheres.
     fn exactly(&mut self, candidate: &Candidate, place: DVec2) -> Option<Lit> {
         let ray = self.soft.ray(place);
@@ -244,19 +270,18 @@ impl Light for OfSky<'_, '_> {
     fn doubt(&mut self, candidate: &Candidate, cell: &Cell, spacing: f64) -> f64 {
         let shading = self.shading(candidate);
         let soft = self.soft;
+        let (sphere, occluders) = (candidate.sphere, soft.occluders());
+        if shading.is_smooth() {
+            let seen = self.seen(candidate, cell);
+            return of_shadows(&seen, spacing, sphere, occluders.as_ref()) * self.brightest();
+        }
         let scale = libm::scalbn(1.0, soft.index.length_exponent());
         let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
         let axes = &soft.view.camera.world_from_camera;
         let mut extent = extent.in_world(axes, soft.view.camera.position, scale);
-        let (sphere, occluders) = (candidate.sphere, soft.occluders());
-        let doubt = if shading.is_smooth() {
-            of_shadows(&extent, spacing, sphere, occluders.as_ref())
-        } else {
-            let of_spheres = of_small_spheres(&extent, sphere, occluders.as_ref());
-            extent.turn *= spacing;
-            of_bumps(&extent, &shading).max(of_spheres)
-        };
-        doubt * self.brightest()
+        let of_spheres = of_small_spheres(&extent, sphere, occluders.as_ref());
+        extent.turn *= spacing;
+        of_bumps(&extent, &shading).max(of_spheres) * self.brightest()
     }
 
     /// Patches know what they are asked for often, and how finely depends on the cell.
