@@ -247,3 +247,41 @@ pub(crate) fn of_small_spheres(
         });
     doubt
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::sphere::Sphere;
+    use crate::search::hierarchy::Hierarchy;
+
+    /// What is in doubt on 80 units of a huge floor with a ball on it.
+    fn doubt(ball: DVec3, radius: f64) -> f64 {
+        const FLOOR: f64 = 1e5;
+        let spheres = [
+            Sphere::new(DVec3::new(0.0, -FLOOR, 0.0), FLOOR).unwrap(),
+            Sphere::new(ball, radius).unwrap(),
+        ];
+        let occluders = Occluders {
+            spheres: &spheres,
+            hierarchy: &Hierarchy::new(&spheres),
+        };
+        let of = Neighborhood {
+            middle: DVec3::ZERO,
+            around: 40.0,
+            normal: DVec3::Y,
+            turn: 40.0 / FLOOR,
+        };
+        of_shadows(&of, 0.25, 0, Some(&occluders))
+    }
+
+    #[test]
+    fn balls_that_lie_between_points_are_noticed() {
+        assert!(doubt(DVec3::new(12.0, 8.0, 18.0), 8.0) > 0.1);
+        // Beside the piece, and above it.
+        assert!(doubt(DVec3::new(30.0, 8.0, 40.0), 8.0) > 1e-2);
+        assert!(doubt(DVec3::new(0.0, 30.0, 0.0), 8.0) > 1e-3);
+        // Points tell of large ones, and of those that are far away.
+        assert_eq!(doubt(DVec3::new(12.0, 30.0, 18.0), 30.0), 0.0);
+        assert!(doubt(DVec3::new(300.0, 8.0, 0.0), 8.0) < 1e-6);
+    }
+}
