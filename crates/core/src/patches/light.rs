@@ -1,6 +1,6 @@
 //! The light of a sky at a node.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::model::sphere::Sphere;
 
@@ -69,8 +69,9 @@ impl NodeLight {
 }
 
 /// How high a place is above a sphere, and the cosine of the angle under which the sphere is seen from there: 0 inside of it.
-pub(crate) fn height_and_cosine(sphere: &Sphere, place: glam::DVec3) -> (f64, f64) {
-    let distance = (sphere.center() - place).length();
+pub(crate) fn height_and_cosine(sphere: &Sphere, place: DVec3) -> (f64, f64) {
+    // A node may be its center.
+    let distance = (sphere.center() - place).length().max(f64::MIN_POSITIVE);
     let height = distance - sphere.radius();
     let square = height.max(0.0) * (distance + sphere.radius());
     (height, square.sqrt() / distance)

@@ -80,6 +80,7 @@ fn all_caps<S: Simd>(
     let up = normal.to_array().map(|number| f64x8::splat(simd, number));
     let one = f64x8::splat(simd, 1.0);
     let zero = f64x8::splat(simd, 0.0);
+    let least = f64x8::splat(simd, f64::MIN_POSITIVE);
     for group in groups {
         let x = f64x8::from_array(simd, group.center[0]) - from[0];
         let y = f64x8::from_array(simd, group.center[1]) - from[1];
@@ -90,7 +91,8 @@ fn all_caps<S: Simd>(
         if above == 0 {
             continue;
         }
-        let distance = (x * x + y * y + z * z).sqrt();
+        // The point may be a center: then the cap has no axis, but all numbers are finite.
+        let distance = (x * x + y * y + z * z).sqrt().max(least);
         let inverse = distance.reciprocal();
         let sine = (radius * inverse).min(one);
         let apart = (distance - radius).max(zero);
@@ -106,5 +108,25 @@ fn all_caps<S: Simd>(
                 sphere: group.number[lane],
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patches::light::height_and_cosine;
+
+    #[test]
+    fn nodes_at_the_center_of_a_sphere_have_finite_light() {
+        let center = DVec3::new(0.0, 0.0, -1.0);
+        let sphere = Sphere::new(center, 0.15).unwrap();
+        let mut bodies = Bodies::default();
+        bodies.push(&sphere, 7);
+        let mut caps = Vec::new();
+        bodies.caps(center, DVec3::NEG_Z, &mut caps);
+        let [cap] = caps[..] else { panic!("{caps:?}") };
+        assert!(cap.axis.is_finite(), "{cap:?}");
+        assert_eq!([cap.sine, cap.cosine, cap.versine], [1.0, 0.0, 1.0]);
+        assert_eq!(height_and_cosine(&sphere, center), (-0.15, 0.0));
     }
 }
