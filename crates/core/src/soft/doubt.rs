@@ -21,6 +21,8 @@ pub(crate) struct Extent {
     pub(crate) turn: f64,
     /// The unit vector from its middle toward the eye.
     pub(crate) to_eye: DVec3,
+    /// A bound of the angle between directions toward the eye in it and that in its middle.
+    pub(crate) eye_turn: f64,
     /// The normal nearest to its middle.
     pub(crate) normal: DVec3,
 }
@@ -34,7 +36,7 @@ impl Extent {
         let middle = DVec2::new(0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
         let half = 0.5 * DVec2::new(u[1] - u[0], v[1] - v[0]).length();
         let (center, radius) = (candidate.center, candidate.radius);
-        let (origin, axis, aside, spread) = match projection {
+        let (origin, axis, aside, spread, eye_turn) = match projection {
             Projection::Central => {
                 // A ray turns by less than its end moves.
                 let axis = middle.extend(1.0).normalize();
@@ -44,6 +46,7 @@ impl Extent {
                     axis,
                     axis.cross(center).length(),
                     half * distance,
+                    half,
                 )
             }
             Projection::Parallel => {
@@ -53,6 +56,7 @@ impl Extent {
                     DVec3::Z,
                     (center - origin).truncate().length(),
                     half,
+                    0.0,
                 )
             }
         };
@@ -77,6 +81,7 @@ impl Extent {
             around,
             turn: 2.0 * around / radius,
             to_eye: -axis,
+            eye_turn,
             normal: (middle - center).normalize(),
         }
     }
@@ -99,26 +104,27 @@ impl Extent {
             around: self.around * scale,
             turn: self.turn,
             to_eye: *world_from_camera * self.to_eye,
+            eye_turn: self.eye_turn,
             normal: *world_from_camera * self.normal,
         }
     }
 }
 
-/// Bumps that are finer than a cell.
-pub(crate) fn of_bumps(extent: &Extent, shading: &ShadingNormal) -> f64 {
+/// Bumps that are finer than points of a cell are apart.
+pub(crate) fn of_bumps(extent: &Extent, spacing: f64, shading: &ShadingNormal) -> f64 {
     /// The part of a cell of the noise that points may be apart.
     const FINE: f64 = 0.25;
-    if shading.cells() * extent.turn > FINE {
+    if shading.cells() * extent.turn * spacing > FINE {
         shading.most_tilt().min(1.0)
     } else {
         0.0
     }
 }
 
-/// A highlight that is narrower than a cell.
+/// A highlight that is narrower than points of a cell are apart.
 pub(crate) fn of_highlight(
     sun: &Sun,
-    extent: &Extent,
+    (extent, spacing): (&Extent, f64),
     (world, sphere): (&World, usize),
     shading: &ShadingNormal,
 ) -> f64 {
@@ -127,16 +133,16 @@ pub(crate) fn of_highlight(
     };
     // n·h falls to e^(−1/2) at this angle.
     let width = 1.0 / highlight.shininess.sqrt();
-    let turn = extent.turn * shading.slope_bound();
-    if turn < 0.5 * width {
+    let normal_turn = extent.turn * shading.slope_bound();
+    let twice_half = sun.disc.axis + extent.to_eye;
+    let turn = normal_turn + extent.eye_turn / twice_half.length();
+    if spacing * turn < 0.5 * width {
         return 0.0;
     }
-    let half = (sun.disc.axis + extent.to_eye).normalize();
-    let angle = extent.normal.angle_between(half);
-    if angle > turn + shading.most_tilt() + 7.0 * width {
-        return 0.0;
-    }
-    0.5 * highlight.strength / (1.0 + highlight.strength)
+    let angle = extent.normal.angle_between(twice_half.normalize());
+    let aside = (angle - turn - shading.most_tilt()).max(0.0) / width;
+    let brightest = libm::exp(-0.5 * aside * aside) * highlight.strength;
+    0.5 * brightest / (1.0 + highlight.strength)
 }
 
 /// The place where a surface turns away from a sun: light may begin between points.

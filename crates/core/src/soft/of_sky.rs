@@ -278,10 +278,9 @@ impl Light for OfSky<'_, '_> {
         let scale = libm::scalbn(1.0, soft.index.length_exponent());
         let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
         let axes = &soft.view.camera.world_from_camera;
-        let mut extent = extent.in_world(axes, soft.view.camera.position, scale);
+        let extent = extent.in_world(axes, soft.view.camera.position, scale);
         let of_spheres = of_small_spheres(&extent, sphere, occluders.as_ref());
-        extent.turn *= spacing;
-        of_bumps(&extent, &shading).max(of_spheres) * self.brightest()
+        of_bumps(&extent, spacing, &shading).max(of_spheres) * self.brightest()
     }
 
     /// Patches know what they are asked for often, and how finely depends on the cell.

@@ -120,12 +120,11 @@ impl Light for OfSun<'_> {
     }
 
     fn doubt(&mut self, candidate: &Candidate, cell: &Cell, spacing: f64) -> f64 {
-        let mut extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
-        extent.turn *= spacing;
+        let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
         let shading = self.shading(candidate);
-        let of_surface = of_bumps(&extent, &shading).max(of_highlight(
+        let of_surface = of_bumps(&extent, spacing, &shading).max(of_highlight(
             self.sun,
-            &extent,
+            (&extent, spacing),
             (self.world, candidate.sphere),
             &shading,
         ));

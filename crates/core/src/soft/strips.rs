@@ -41,7 +41,12 @@ struct Line {
     sum: Color,
     error: f64,
     pattern: Pattern,
+    /// How much of the line each candidate fills with light: of some, the sum.
+    filled: [f64; FILLED],
 }
+
+/// So many candidates, whose numbers follow each other, are told apart.
+const FILLED: usize = 8;
 
 /// What is seen along a line, and what begins and ends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -119,8 +124,10 @@ const OF_RULES: f64 = 1.0;
 /// The part of a cell's error that the errors along its lines may have. Not tuned.
 const OF_LINES: f64 = 0.25;
 
-/// The claim of what begins or ends between two lines, in parts of their difference. Not tuned.
+/// The claim of what begins or ends between two lines, in parts of their difference, and of the brightest light on what one
+/// of them sees more of than the other. Not tuned.
 const OF_CHANGE: f64 = 0.75;
+const OF_BRIGHTEST: f64 = 0.25;
 
 /// What lines are drawn across.
 #[derive(Clone, Copy)]
@@ -130,6 +137,7 @@ struct Scene<'a> {
     candidates: &'a [Candidate],
     /// The error of light along a line that is allowed, in parts of its length.
     limit: f64,
+    brightest: f64,
 }
 
 impl Strips {
@@ -165,6 +173,7 @@ impl Strips {
             projection,
             candidates,
             limit: OF_LINES * limit / cell.area(),
+            brightest: light.brightest(),
         };
         Seam::all(candidates, &mut self.seams);
         let heights = self.heights(light, scene);
@@ -299,12 +308,12 @@ impl Strips {
             rough += line.sum * (node.coarse * speed);
             strip.error += line.error * (node.fine * speed);
             let below = before.or_else(|| self.unlike(light, scene, low + inside, &line));
-            strip.compare(below, Some((line, v)));
+            strip.compare(below, Some((line, v)), scene.brightest);
             before = Some((line, v));
         }
         if let Some((last, _)) = before {
             let above = self.unlike(light, scene, high - inside, &last);
-            strip.compare(before, above);
+            strip.compare(before, above, scene.brightest);
         }
         strip.error += (strip.value - rough).abs().max_element() * OF_RULES;
         strip
@@ -363,6 +372,7 @@ impl Strips {
                 line.pattern.add(0);
                 continue;
             };
+            line.filled[number % FILLED] += *end - *begin;
             let candidate = &candidates[number];
             let mut curve = Curve::new(false, v, [*begin, *end], candidate, projection);
             if light.has_roots_at_seams() {
@@ -405,15 +415,27 @@ fn sort(breaks: &mut [Break]) {
 
 impl Strip {
     /// Notices what begins or ends between two lines.
-    fn compare(&mut self, before: Option<(Line, f64)>, after: Option<(Line, f64)>) {
+    ///
+    /// Light that is weak on both lines may be strong between them, where one sees what the other does not.
+    fn compare(
+        &mut self,
+        before: Option<(Line, f64)>,
+        after: Option<(Line, f64)>,
+        brightest: f64,
+    ) {
         let (Some((before, below)), Some((after, above))) = (before, after) else {
             return;
         };
         if before.pattern == after.pattern {
             return;
         }
-        let difference = (after.sum - before.sum).abs().max_element() * (above - below);
-        self.error += difference * OF_CHANGE;
+        let mut filled = 0.0;
+        for (before, after) in before.filled.iter().zip(after.filled) {
+            filled += (after - before).abs();
+        }
+        let of_light = (after.sum - before.sum).abs().max_element() * OF_CHANGE;
+        let difference = of_light.max(filled * brightest * OF_BRIGHTEST) * (above - below);
+        self.error += difference;
         if self
             .change
             .is_none_or(|change| change.difference < difference)
