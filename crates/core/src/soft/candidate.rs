@@ -17,6 +17,8 @@ pub(crate) struct Candidate {
     pub(super) outside: f64,
     /// The radius of the sphere that a ray has to meet to miss the outline, if there is one.
     pub(crate) inner: Option<f64>,
+    /// Whether no soft light reaches what is inside of it.
+    pub(crate) hides_light: bool,
 }
 
 impl Candidate {
@@ -25,6 +27,7 @@ impl Candidate {
         number: usize,
         camera_from_world: &DMat3,
         inner: Option<f64>,
+        hides_light: bool,
     ) -> Self {
         Self {
             number,
@@ -33,6 +36,7 @@ impl Candidate {
             radius: ball.radius,
             outside: ball.outside,
             inner,
+            hides_light,
         }
     }
 

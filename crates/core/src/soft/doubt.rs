@@ -121,6 +121,33 @@ pub(crate) fn of_bumps(extent: &Extent, spacing: f64, shading: &ShadingNormal) -
     }
 }
 
+/// The part of a cell's light that points may miss of light which falls to e^(−1/2) at some angle from a normal: it is at most
+/// 1, and the nearest normal of the cell is farther away by `aside`.
+fn of_lobe(width: f64, aside: f64, turn: f64, spacing: f64) -> f64 {
+    if spacing * turn < 0.5 * width {
+        return 0.0;
+    }
+    let aside = aside.max(0.0) / width;
+    0.5 * libm::exp(-0.5 * aside * aside)
+}
+
+/// Matte light of a large exponent, which is as narrow as a highlight.
+pub(crate) fn of_exponent(
+    sun: &Sun,
+    (extent, spacing): (&Extent, f64),
+    exponent: f64,
+    shading: &ShadingNormal,
+) -> f64 {
+    /// That of lobes so wide that points do not miss them. Not tuned.
+    const WIDE: f64 = 8.0;
+    if exponent < WIDE {
+        return 0.0;
+    }
+    let turn = extent.turn * shading.slope_bound();
+    let aside = extent.normal.angle_between(sun.disc.axis) - turn - shading.most_tilt();
+    of_lobe(1.0 / exponent.sqrt(), aside, turn, spacing)
+}
+
 /// A highlight that is narrower than points of a cell are apart.
 pub(crate) fn of_highlight(
     sun: &Sun,
@@ -131,18 +158,12 @@ pub(crate) fn of_highlight(
     let Some(highlight) = &world.material(sphere).highlight else {
         return 0.0;
     };
-    // n·h falls to e^(−1/2) at this angle.
-    let width = 1.0 / highlight.shininess.sqrt();
-    let normal_turn = extent.turn * shading.slope_bound();
     let twice_half = sun.disc.axis + extent.to_eye;
-    let turn = normal_turn + extent.eye_turn / twice_half.length();
-    if spacing * turn < 0.5 * width {
-        return 0.0;
-    }
+    let turn = extent.turn * shading.slope_bound() + extent.eye_turn / twice_half.length();
     let angle = extent.normal.angle_between(twice_half.normalize());
-    let aside = (angle - turn - shading.most_tilt()).max(0.0) / width;
-    let brightest = libm::exp(-0.5 * aside * aside) * highlight.strength;
-    0.5 * brightest / (1.0 + highlight.strength)
+    let aside = angle - turn - shading.most_tilt();
+    let width = 1.0 / highlight.shininess.sqrt();
+    of_lobe(width, aside, turn, spacing) * highlight.strength / (1.0 + highlight.strength)
 }
 
 /// The place where a surface turns away from a sun: light may begin between points.

@@ -23,17 +23,20 @@ fn first(
     projection: Projection,
 ) -> Option<(usize, bool)> {
     let mut nearest: Option<(usize, f64, bool)> = None;
+    let mut is_hidden = false;
     for (place, candidate) in candidates.iter().enumerate() {
-        if let Some((distance, is_inside)) = candidate.distance(u, v, projection)
-            && nearest.is_none_or(|(_, least, _)| distance < least)
-        {
+        let Some((distance, is_inside)) = candidate.distance(u, v, projection) else {
+            continue;
+        };
+        is_hidden |= is_inside && candidate.hides_light;
+        if nearest.is_none_or(|(_, least, _)| distance < least) {
             nearest = Some((place, distance, is_inside));
         }
     }
     let (place, _, is_inside) = nearest?;
     Some((
         place,
-        candidates[place].has_light(u, v, projection, is_inside),
+        !is_hidden && candidates[place].has_light(u, v, projection, is_inside),
     ))
 }
 

@@ -4,7 +4,9 @@ use glam::{DMat3, DVec2};
 
 use super::candidate::Candidate;
 use super::curve::Curve;
-use super::doubt::{Extent, of_bumps, of_highlight, of_penumbra, of_speck, of_terminator};
+use super::doubt::{
+    Extent, of_bumps, of_exponent, of_highlight, of_penumbra, of_speck, of_terminator,
+};
 use super::edges::{Break, Edge, KNOTS, Sought, add_breaks};
 use super::light::sun_light;
 use super::point::SurfacePoint;
@@ -122,13 +124,14 @@ impl Light for OfSun<'_> {
     fn doubt(&mut self, candidate: &Candidate, cell: &Cell, spacing: f64) -> f64 {
         let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
         let shading = self.shading(candidate);
-        let of_surface = of_bumps(&extent, spacing, &shading).max(of_highlight(
-            self.sun,
-            (&extent, spacing),
-            (self.world, candidate.sphere),
-            &shading,
-        ));
-        of_surface * self.brightest()
+        let cell = (&extent, spacing);
+        let exponent = self.world.material(candidate.sphere).exponent;
+        let of_surface = [
+            of_bumps(&extent, spacing, &shading),
+            of_exponent(self.sun, cell, exponent, &shading),
+            of_highlight(self.sun, cell, (self.world, candidate.sphere), &shading),
+        ];
+        of_surface.into_iter().fold(0.0, f64::max) * self.brightest()
     }
 
     fn brightest(&self) -> f64 {

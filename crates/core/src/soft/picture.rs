@@ -2,6 +2,8 @@
 
 use std::num::NonZeroU32;
 
+use glam::DVec2;
+
 use super::cell::Cells;
 use super::light::SoftLight;
 use super::of_sky::{OfSky, SkyMemory};
@@ -58,17 +60,23 @@ impl Soft<'_> {
     ) -> Work {
         let side = u64::from(samples.get());
         let count = (side * side) as f64;
+        let candidates = self.candidates(tile).unwrap_or_default();
+        let projection = self.view.lens.projection();
         for ((col, row), pixel) in tile.pixels().zip(pixels) {
             let key = self.key(col, row);
             let (mut sum, mut least, mut most) = (Color::ZERO, Color::INFINITY, Color::ZERO);
             for place in 0..side * side {
                 let (x, y) = (place % side, place / side);
                 let cell = (u64::from(col) * side + x, u64::from(row) * side + y);
-                let ray = self
-                    .view
-                    .ray(self.view.cell_center(cell.0, cell.1, samples.get()));
+                let at = self.view.cell_center(cell.0, cell.1, samples.get());
+                let ray = self.view.ray(at);
+                let DVec2 { x, y } = at * self.unit_of_cells();
+                let is_dark = candidates.iter().any(|one| {
+                    let inside = one.distance(x, y, projection);
+                    one.hides_light && inside.is_some_and(|(_, is_inside)| is_inside)
+                });
                 let light = match self.index.nearest(tile, &ray) {
-                    Some((sphere, hit)) if !self.is_outline(sphere, &ray, &hit) => {
+                    Some((sphere, hit)) if !is_dark && !self.is_outline(sphere, &ray, &hit) => {
                         let point = self.point(sphere, &ray, &hit, key);
                         point.map(|point| self.light_at(&point, &mut scratch.hidden))
                     }

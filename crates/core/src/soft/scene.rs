@@ -180,7 +180,9 @@ impl<'scene> Soft<'scene> {
                 let center = camera_from_world * ball.to_center / scale;
                 let inner = self.inner_radius(index, center, ball.radius / scale);
                 let inner = inner.map(|inner| inner * scale);
-                (!ball.is_odd()).then(|| Candidate::new(ball, number, &camera_from_world, inner))
+                let hides_light = self.world.shadows;
+                (!ball.is_odd())
+                    .then(|| Candidate::new(ball, number, &camera_from_world, inner, hides_light))
             })
             .collect()
     }

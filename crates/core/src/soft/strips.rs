@@ -417,12 +417,7 @@ impl Strip {
     /// Notices what begins or ends between two lines.
     ///
     /// Light that is weak on both lines may be strong between them, where one sees what the other does not.
-    fn compare(
-        &mut self,
-        before: Option<(Line, f64)>,
-        after: Option<(Line, f64)>,
-        brightest: f64,
-    ) {
+    fn compare(&mut self, before: Option<(Line, f64)>, after: Option<(Line, f64)>, brightest: f64) {
         let (Some((before, below)), Some((after, above))) = (before, after) else {
             return;
         };

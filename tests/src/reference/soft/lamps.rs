@@ -139,6 +139,16 @@ impl Patch<'_> {
         }
     }
 
+    /// Returns whether a point is inside of one of some balls, which hides all light from it. Points where surfaces meet are not.
+    fn is_inside(&self, casters: &[usize], point: DVec3) -> bool {
+        const ROUNDING: f64 = 1e-12;
+        casters.iter().any(|&caster| {
+            let ball = &self.stage.balls[caster];
+            let squares = ball.radius * ball.radius + point.length_squared();
+            ball.power_from(point) < -ROUNDING * squares
+        })
+    }
+
     fn caps<'a>(
         &'a self,
         casters: &'a [usize],
@@ -188,7 +198,9 @@ impl Patch<'_> {
             let intensity = world.lights[number].intensity();
             light += (diffuse + shine) * intensity * seen.share();
         }
-        if let Some(sky) = &self.stage.softness.sky {
+        if let Some(sky) = &self.stage.softness.sky
+            && !self.is_inside(&candidate.sky_casters, spot.point)
+        {
             let seen = self.of_sky(sky, candidate, spot);
             light += albedo * (sky.below() * (seen.free - seen.above) + sky.above() * seen.above);
         }
@@ -220,6 +232,9 @@ impl Patch<'_> {
         (candidate, casters): (&Candidate, &[usize]),
         spot: &Spot,
     ) -> SoftState {
+        if self.is_inside(casters, spot.point) {
+            return SoftState(0);
+        }
         let sine = libm::sin(sun.half);
         let mut state = 1;
         for normal in [candidate.ball.normal(spot.point), spot.normal] {

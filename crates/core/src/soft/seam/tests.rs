@@ -14,6 +14,7 @@ fn candidate(center: DVec3, radius: f64) -> Candidate {
         radius,
         outside: center.length_squared() - radius * radius,
         inner: None,
+        hides_light: true,
     }
 }
 
