@@ -3,85 +3,64 @@
 //! Light is computed at nodes, which squares have in common. Between 3 × 3 of them it is that of a [`Model`].
 //!
 //! # Accuracy
-//! The claim is an estimate: by how much the model of the square that this one is a quarter of misses the nodes between
-//! its own. With half of their distance the error is at most about as large where light has an edge, and an eighth where it is
-//! smooth. Two things could fool it. Both models may agree by chance: so the claim is at least a part of the largest
-//! difference of the square, and of how much the light bends. Spheres may be so small and close that they darken only what
-//! lies between nodes: then the square claims what they may.
+//! The claim is an estimate: by how much the model misses the light at the middles of the square's quarters, which are nodes of
+//! these quarters. Two things could fool it. The model may be right there by chance: so the claim is at least a part of the
+//! largest difference of the square, and of how much the light bends. Spheres may be so small and close that they darken only
+//! what lies between nodes: then the square claims what they may.
 
 use glam::{DVec2, DVec3};
 
 use super::light::{NodeLight, Shares};
-use super::model::{Grid, Model, SIDE, place};
-use super::square::{Square, point};
+use super::model::{Grid, Model};
+use super::square::{Node, Square, point};
 use crate::model::sphere::Sphere;
 
-/// The claim near a node, in parts of what the parent misses there, of the most that it misses, and of how much the light
-/// bends. From searches over some 160 small scenes at 1e-2 to 1e-4: the errors of pixels were at most 0.65 of their claims, and
-/// at most 0.2 of them in 99 of 100 pixels, but for 2 pixels, which were off as much with claims 2.5 times as large.
-const OF_MISSED: f64 = 0.8;
-const OF_LARGEST: f64 = 0.4;
-const OF_BEND: f64 = 0.06;
+/// The claim in a quarter, in parts of what the model misses in its middle, of the most that it misses, and of how much the
+/// light bends. Not tuned.
+const OF_MISSED: f64 = 1.0;
+const OF_LARGEST: f64 = 0.5;
+const OF_BEND: f64 = 0.03;
 
 /// The light on a square.
 #[derive(Clone, Debug)]
 pub(crate) struct Patch {
     model: Model,
-    /// What is claimed near the nodes.
-    claims: [[f64; SIDE]; SIDE],
-}
-
-/// What the model of a square's parent misses at the nodes of the square.
-fn missed(
-    square: &Square,
-    lights: &Grid<NodeLight>,
-    parent: &Model,
-    spheres: &[Sphere],
-) -> [[f64; SIDE]; SIDE] {
-    let own = &spheres[square.sphere as usize];
-    let mut missed = [[0.0; SIDE]; SIDE];
-    for row in 0..SIDE {
-        for col in 0..SIDE {
-            let at = place(row, col);
-            let position = point(own, square.normal(at));
-            let by_parent = parent.at(square.in_parent(at), position, spheres);
-            missed[row][col] = (lights[row][col].shares - by_parent).abs().max_element();
-        }
-    }
-    // The corners are nodes of the parent, and tell nothing.
-    for (row, col) in [(0, 0), (0, 2), (2, 0), (2, 2)] {
-        missed[row][col] = f64::max(missed[1][col], missed[row][1]);
-    }
-    missed
-}
-
-/// The largest of some numbers.
-fn largest(of: &[[f64; SIDE]; SIDE]) -> f64 {
-    of.as_flattened().iter().copied().fold(0.0, f64::max)
+    /// What is claimed in the middles of its quarters, row by row.
+    claims: [[f64; 2]; 2],
 }
 
 impl Patch {
-    /// That of a square, from the light at its nodes and at those of its parent, and from what small spheres may darken between
-    /// nodes.
+    /// That of a square, from the light at its nodes and at those in the middles of its quarters, and from what small spheres
+    /// may darken between nodes.
     pub(crate) fn new(
         square: &Square,
         of_small_spheres: f64,
         spheres: &[Sphere],
-        light: &mut dyn FnMut(&Square) -> Grid<NodeLight>,
+        light: &mut dyn FnMut(&Node) -> NodeLight,
     ) -> Self {
-        let lights = light(square);
-        let model = Model::new(square, &lights, spheres);
-        let mut claims = [[1.0; SIDE]; SIDE];
-        if let Some(parent) = square.parent() {
-            let of_parent = Model::new(&parent, &light(&parent), spheres);
-            claims = missed(square, &lights, &of_parent, spheres);
-            let least = (OF_LARGEST * largest(&claims)).max(OF_BEND * model.bend());
-            for claim in claims.as_flattened_mut() {
-                *claim = (OF_MISSED * *claim).max(least);
+        let own = &spheres[square.sphere as usize];
+        let mut lights = Grid::<NodeLight>::default();
+        for (row, lights) in lights.iter_mut().enumerate() {
+            for (col, value) in lights.iter_mut().enumerate() {
+                *value = light(&square.node(row, col));
             }
         }
+        let model = Model::new(square, &lights, spheres);
+        let mut claims = [[0.0; 2]; 2];
+        let mut largest: f64 = 0.0;
+        for (row, claims) in claims.iter_mut().enumerate() {
+            for (col, claim) in claims.iter_mut().enumerate() {
+                let node = square.quarter(row, col).node(1, 1);
+                let at = DVec2::new(col as f64, row as f64) * 0.5 + 0.25;
+                let by_model = model.at(at, point(own, node.normal()), spheres);
+                let missed = (light(&node).shares - by_model).abs().max_element();
+                largest = largest.max(missed);
+                *claim = OF_MISSED * missed;
+            }
+        }
+        let least = (OF_LARGEST * largest).max(OF_BEND * model.bend());
         for claim in claims.as_flattened_mut() {
-            *claim = claim.max(of_small_spheres);
+            *claim = claim.max(least).max(of_small_spheres);
         }
         Self { model, claims }
     }
@@ -93,15 +72,11 @@ impl Patch {
 
     /// The claim at a place.
     pub(crate) fn claim_at(&self, at: DVec2) -> f64 {
-        let at = at * (SIDE - 1) as f64;
-        let before = at.floor().min(DVec2::splat((SIDE - 2) as f64));
-        let (col, row) = (before.x as usize, before.y as usize);
-        let DVec2 { x, y } = at - before;
-        let along = |row: usize| {
-            let claims = &self.claims[row];
-            claims[col] * (1.0 - x) + claims[col + 1] * x
-        };
-        along(row) * (1.0 - y) + along(row + 1) * y
+        let DVec2 { x, y } = (at * 2.0 - 0.5).clamp(DVec2::ZERO, DVec2::ONE);
+        let [low, high] = self
+            .claims
+            .map(|claims| claims[0] * (1.0 - x) + claims[1] * x);
+        low * (1.0 - y) + high * y
     }
 }
 
@@ -123,22 +98,20 @@ mod tests {
         by_cosine: &dyn Fn(DVec3) -> f64,
     ) -> Patch {
         let spheres = spheres();
-        let mut nodes = |square: &Square| {
-            let mut grid = Grid::<NodeLight>::default();
-            for (row, lights) in grid.iter_mut().enumerate() {
-                for (col, light) in lights.iter_mut().enumerate() {
-                    let normal = square.normal(place(row, col));
-                    let (height, cosine) = height_and_cosine(&spheres[1], normal);
-                    let slope = by_cosine(normal);
-                    light.shares = Shares::new(of(normal) + slope * cosine, 0.0);
-                    light.add(Slope {
-                        sphere: Some(1),
-                        height: height as f32,
-                        by_cosine: Shares::new(slope, 0.0),
-                    });
-                }
-            }
-            grid
+        let mut nodes = |node: &Node| {
+            let normal = node.normal();
+            let (height, cosine) = height_and_cosine(&spheres[1], normal);
+            let slope = by_cosine(normal);
+            let mut light = NodeLight {
+                shares: Shares::new(of(normal) + slope * cosine, 0.0),
+                ..NodeLight::default()
+            };
+            light.add(Slope {
+                sphere: Some(1),
+                height: height as f32,
+                by_cosine: Shares::new(slope, 0.0),
+            });
+            light
         };
         Patch::new(square, 0.0, &spheres, &mut nodes)
     }

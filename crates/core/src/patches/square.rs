@@ -94,10 +94,14 @@ impl Square {
         })
     }
 
-    /// The place in the parent of a place in it.
-    pub(crate) fn in_parent(&self, at: DVec2) -> DVec2 {
-        let [x, y] = self.place;
-        (at + DVec2::new((x % 2) as f64, (y % 2) as f64)) * 0.5
+    /// One of its 2 × 2 quarters.
+    pub(crate) fn quarter(&self, row: usize, col: usize) -> Self {
+        let [x, y] = self.place.map(|place| 2 * place);
+        Self {
+            level: self.level + 1,
+            place: [x + col as u64, y + row as u64],
+            ..*self
+        }
     }
 
     /// One of its 3 × 3 nodes.
@@ -200,11 +204,10 @@ mod tests {
             assert!((found - normal).length() < 1e-15, "{square:?}");
             let (middle, chord) = square.extent();
             assert!((middle - normal).length() <= chord * (1.0 + 1e-9));
-            if let Some(parent) = square.parent() {
-                let at = DVec2::new(0.25, 0.75);
-                let apart = square.normal(at) - parent.normal(square.in_parent(at));
-                assert!(apart.length() < 1e-15);
-            }
+            let quarter = square.quarter(1, 0);
+            assert_eq!(quarter.parent(), Some(square));
+            let apart = square.normal(DVec2::new(0.25, 0.75)) - quarter.node(1, 1).normal();
+            assert!(apart.length() < 1e-15);
         }
     }
 

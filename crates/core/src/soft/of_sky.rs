@@ -23,7 +23,6 @@ use crate::model::roughness::PixelKey;
 use crate::model::sky::Sky;
 use crate::patches::known::Patches;
 use crate::patches::light::{NodeLight, Shares, Slope, height_and_cosine};
-use crate::patches::model::Grid;
 use crate::patches::patch::Patch;
 use crate::patches::square::{Node, Square, point as point_of};
 
@@ -165,16 +164,8 @@ impl OfSky<'_, '_> {
         let patch = patches.patch(square, || {
             let list = self.list(square, &occluders);
             let missed = missed(&list, square, &occluders);
-            let mut nodes = |square: &Square| {
-                let mut grid = Grid::<NodeLight>::default();
-                for (row, values) in grid.iter_mut().enumerate() {
-                    for (col, value) in values.iter_mut().enumerate() {
-                        *value = self.node(&square.node(row, col), &occluders);
-                    }
-                }
-                grid
-            };
-            Patch::new(square, missed, occluders.spheres, &mut nodes)
+            let mut light = |node: &Node| self.node(node, &occluders);
+            Patch::new(square, missed, occluders.spheres, &mut light)
         });
         self.memory.patches[place] = Some((*square, Arc::clone(&patch)));
         Some(patch)
