@@ -28,15 +28,16 @@ fn place(line: &str) -> (u32, u32) {
     (after("column"), after("row"))
 }
 
-/// Colored scenes without lights, of which pixels had larger errors than they claimed at these tolerances: slivers between
-/// balls of one color, and balls that are taken to fill a box that they do not.
-const SLIVERS: [&str; 4] = [
+/// Scenes of which pixels had larger errors than they claimed at these tolerances: slivers between balls of one color, balls
+/// that are taken to fill a box that they do not, and the light of a sky that another sphere begins to hide.
+const FALSE_CLAIMS: [&str; 5] = [
     "sliver_between_balls_of_one_color",
     "tip_in_a_sliver",
     "sphere_that_seems_to_fill_a_box",
     "seam_beside_a_sphere_that_seems_to_fill_a_box",
+    "sphere_that_rises_over_a_horizon",
 ];
-const TOLERANCES_OF_SLIVERS: [f64; 4] = [1e-2, 1e-3, 3e-4, 1e-4];
+const TOLERANCES_OF_CLAIMS: [f64; 4] = [1e-2, 1e-3, 3e-4, 1e-4];
 
 /// A scene, the view of the pixel that its first line names, and the exact light of that pixel with its error.
 struct Found {
@@ -79,10 +80,10 @@ fn folder() -> PathBuf {
 }
 
 #[test]
-fn slivers_are_off_by_no_more_than_they_claim() {
-    for name in SLIVERS {
+fn pixels_are_off_by_no_more_than_they_claim() {
+    for name in FALSE_CLAIMS {
         let found = Found::load(&folder().join(name).with_extension("ron"));
-        for tolerance in TOLERANCES_OF_SLIVERS {
+        for tolerance in TOLERANCES_OF_CLAIMS {
             let (channels, claimed, _) = found.render(tolerance);
             for off in channels {
                 assert!(off <= claimed, "{name} {tolerance:e}: {off:e} {claimed:e}");
@@ -110,5 +111,5 @@ fn found_pixels_are_within_their_tolerance_or_say_so() {
         }
         count += 1;
     }
-    assert!(count >= 52, "{count}");
+    assert!(count >= 56, "{count}");
 }

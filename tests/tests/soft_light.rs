@@ -96,6 +96,34 @@ fn a_ball_over_a_floor_hides_its_projection() {
 }
 
 #[test]
+fn no_soft_light_reaches_what_is_inside_of_a_sphere() {
+    // Parallel rays begin inside of the large ball, unless they pass to the right of it.
+    let camera = Camera::look_at(DVec3::new(0.0, 0.0, -6.0), DVec3::ZERO, Angle::ZERO).unwrap();
+    let view = View::new(camera, Lens::parallel(8.0, DVec2::ZERO), 8, 4);
+    let large = ([-10.0, 0.0, 0.0], 60.0);
+    let balls = [([-1.5, 0.0, 0.0], 1.2), ([1.5, 0.0, 0.0], 1.2)];
+    let settings = [
+        to_tolerance(1e-3),
+        Settings {
+            method: Method::Samples(NonZeroU32::new(2).unwrap()),
+            ..Settings::default()
+        },
+    ];
+    for around in [large, ([-60.5, 0.0, -6.0], 60.0)] {
+        let mut world = world(&[balls[0], balls[1], around]);
+        world.sky = Some(Sky::uniform(DVec3::ONE));
+        world.lights = vec![sun(DVec3::new(0.3, 0.2, -1.0), 3.0)];
+        for settings in &settings {
+            let image = Renderer::new(&world).render(&view, settings);
+            let light = |col: u32| image.rgba(col, 2)[0] - image.error(col, 2);
+            let is_lit = [2, 5].map(|col| light(col) > 0.1);
+            assert_eq!(is_lit, [false, around != large], "{settings:?}");
+            assert_eq!(image.rgba(2, 2)[0], 0.0, "{settings:?}");
+        }
+    }
+}
+
+#[test]
 fn half_a_sky_is_what_the_normal_turns_to_it() {
     let mut world = world(&PILE[..1]);
     world.sky = Some(Sky::in_halves(DVec3::ONE, DVec3::ZERO, DVec3::Y).unwrap());

@@ -278,8 +278,11 @@ pub(crate) fn of_small_spheres(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::material::{Highlight, Material};
+    use crate::model::roughness::PixelKey;
     use crate::model::sphere::Sphere;
     use crate::search::hierarchy::Hierarchy;
+    use crate::soft::cap::Cap;
 
     /// What is in doubt on 80 units of a huge floor with a ball on it.
     fn doubt(ball: DVec3, radius: f64) -> f64 {
@@ -299,6 +302,54 @@ mod tests {
             turn: 40.0 / FLOOR,
         };
         of_shadows(&of, 0.25, 0, Some(&occluders))
+    }
+
+    /// What is in doubt of light that is narrower than a cell, where its middle is so far from the cell's middle normal: of a
+    /// highlight, and of a large exponent.
+    fn doubt_of_lobes(aside: f64) -> [f64; 2] {
+        const NARROW: f64 = 1e4;
+        let mut world = World::new();
+        let shiny = world.add_material(Material {
+            highlight: Some(Highlight {
+                strength: 1.0,
+                shininess: NARROW,
+            }),
+            ..Material::default()
+        });
+        world.add_sphere(Sphere::new(DVec3::ZERO, 1.0).unwrap(), shiny);
+        let key = PixelKey {
+            col: 0,
+            row: 0,
+            frame: 1,
+        };
+        let shading = ShadingNormal::new(&world, 0, key);
+        let extent = Extent {
+            middle: DVec3::NEG_Z,
+            around: 0.1,
+            turn: 0.2,
+            to_eye: DVec3::NEG_Z,
+            eye_turn: 0.0,
+            normal: DVec3::NEG_Z,
+        };
+        let sun = |angle: f64| Sun {
+            disc: Cap::within(DVec3::new(libm::sin(angle), 0.0, -libm::cos(angle)), 0.01),
+            intensity: DVec3::ONE,
+        };
+        let cell = (&extent, 0.25);
+        [
+            of_highlight(&sun(2.0 * aside), cell, (&world, 0), &shading),
+            of_exponent(&sun(aside), cell, NARROW, &shading),
+        ]
+    }
+
+    #[test]
+    fn narrow_lobes_anywhere_in_a_cell_are_noticed() {
+        for aside in [0.0, 0.1, 0.19] {
+            let doubt = doubt_of_lobes(aside);
+            assert!(doubt.into_iter().all(|one| one > 0.2), "{aside}: {doubt:?}");
+        }
+        let beside = doubt_of_lobes(0.3);
+        assert!(beside.into_iter().all(|one| one < 1e-12), "{beside:?}");
     }
 
     #[test]

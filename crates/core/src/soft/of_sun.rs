@@ -126,12 +126,15 @@ impl Light for OfSun<'_> {
         let shading = self.shading(candidate);
         let cell = (&extent, spacing);
         let exponent = self.world.material(candidate.sphere).exponent;
-        let of_surface = [
-            of_bumps(&extent, spacing, &shading),
-            of_exponent(self.sun, cell, exponent, &shading),
-            of_highlight(self.sun, cell, (self.world, candidate.sphere), &shading),
-        ];
-        of_surface.into_iter().fold(0.0, f64::max) * self.brightest()
+        let of_surface = of_bumps(&extent, spacing, &shading)
+            .max(of_exponent(self.sun, cell, exponent, &shading))
+            .max(of_highlight(
+                self.sun,
+                cell,
+                (self.world, candidate.sphere),
+                &shading,
+            ));
+        of_surface * self.brightest()
     }
 
     fn brightest(&self) -> f64 {
