@@ -47,7 +47,10 @@ pub(super) fn soft_skies(numbers: &mut Numbers) -> Draft {
         seams,
         slivers,
         parallel_lenses,
+        planes_that_cut,
         resting,
+        centered_on_surfaces,
+        around_the_eye,
     ]);
     let mut draft = small(shape(numbers), numbers);
     add_sky(&mut draft, numbers);
@@ -166,6 +169,31 @@ fn resting(numbers: &mut Numbers) -> Draft {
         let at = center + way * (radius + size);
         draft.sphere(at.to_array(), size);
     }
+    draft
+}
+
+/// Balls whose centers are on the surface of another one, at places where the renderer is likely to compute light.
+fn centered_on_surfaces(numbers: &mut Numbers) -> Draft {
+    let mut draft = Draft::new(numbers, DISTANCE, 1);
+    let center = DVec3::from(place(numbers, 100.0));
+    let radius = numbers.between(4.0, 15.0);
+    draft.sphere(center.to_array(), radius);
+    for _ in 0..numbers.below(3) + 1 {
+        let way = [(); 3].map(|()| numbers.either(&[-1.0, 0.0, 0.0, 1.0]));
+        let way = DVec3::from(way).normalize_or(DVec3::NEG_Z);
+        let size = radius * numbers.between(0.1, 1.0);
+        draft.sphere((center + way * radius).to_array(), size);
+    }
+    draft
+}
+
+/// Balls in a large one that the eye is inside of, too.
+fn around_the_eye(numbers: &mut Numbers) -> Draft {
+    let mut draft = Draft::new(numbers, DISTANCE, 1);
+    let radius = power_of_ten(numbers, 1.5, 4.0);
+    let center = DVec3::from(numbers.direction()) * (radius * numbers.between(0.0, 0.95));
+    draft.sphere(center.to_array(), radius);
+    add_balls(numbers, &mut draft, 3, [2.0, 12.0]);
     draft
 }
 
