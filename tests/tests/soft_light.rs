@@ -2,12 +2,14 @@
 
 use std::f64::consts::TAU;
 use std::num::NonZeroU32;
+use std::path::Path;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{
     Angle, Camera, DirectionalLight, Exposure, Highlight, Image, Lens, Light, LightPart, Material,
     Method, Motion, Pose, Renderer, Settings, Sky, Sphere, View, World,
 };
+use marbles_scene::Scene;
 
 fn world(spheres: &[([f64; 3], f64)]) -> World {
     let mut world = World::new();
@@ -93,6 +95,32 @@ fn a_ball_over_a_floor_hides_its_projection() {
         (found - 0.5 * share).abs() <= image.error(1, 1) + 1e-8,
         "{found}"
     );
+}
+
+#[test]
+fn the_umbra_of_an_eclipse_is_a_section_of_its_cone() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/eclipse.ron");
+    let scene = Scene::load(&file).unwrap();
+    let world = scene.world();
+    let [earth, moon] = [0, 1].map(|index| world.spheres()[index]);
+    // Rays along the axis of the shadow, from between both; a pixel is half a kilometer wide.
+    const PIXELS: u32 = 200;
+    let position = moon.center().with_z(-8000.0);
+    let camera = Camera::free(position, Angle::ZERO, Angle::ZERO, Angle::ZERO);
+    let view = View::new(camera, Lens::parallel(100.0, DVec2::ZERO), PIXELS, 1);
+    let image = Renderer::new(world).render(&view, &to_tolerance(1e-6));
+    let dark = world.albedo(0).x * world.ambient.x;
+    let is_dark = |col: &u32| image.rgba(*col, 0)[0] <= dark * (1.0 + 1e-6);
+    let found = 0.5 * (0..PIXELS).filter(is_dark).count() as f64;
+    // The cone narrows from the moon's radius on, and meets the ground north of the earth's middle.
+    let half = 0.5 * world.lights[0].sun().unwrap().diameter();
+    let sine_north = moon.center().y / earth.radius();
+    let up = (1.0 - sine_north * sine_north).sqrt();
+    let away = -moon.center().z - earth.radius() * up;
+    let umbra = 2.0 * (moon.radius() / libm::cos(half) - away * libm::tan(half));
+    assert!((found - umbra).abs() <= 1.0, "{found} {umbra}");
+    // On the ground it is longer, from north to south.
+    assert!((umbra / up - 58.0).abs() < 0.5, "{umbra} {up}");
 }
 
 #[test]

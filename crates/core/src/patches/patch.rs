@@ -16,7 +16,8 @@ use super::square::{Node, Square, point};
 use crate::model::sphere::Sphere;
 
 /// The claim in a quarter, in parts of what the model misses in its middle, of the most that it misses, and of how much the
-/// light bends. Not tuned.
+/// light bends. Not tuned: of 375,000 pixels of hunted scenes with contacts and skies at 1e-2 to 1e-4, one was off by more than
+/// it claimed, by 1.09 of that.
 const OF_MISSED: f64 = 1.0;
 const OF_LARGEST: f64 = 0.5;
 const OF_BEND: f64 = 0.03;
