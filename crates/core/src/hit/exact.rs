@@ -9,6 +9,7 @@ use num_traits::{Signed, ToPrimitive};
 use super::outcome::{Components, Hit};
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
+use crate::numeric::pair::both;
 
 /// Digits that quotients and roots keep: far more than doubles have.
 const BITS: u64 = 160;
@@ -181,7 +182,8 @@ fn surd(a: BigInt, b: &BigInt, q: &BigInt, c: &BigInt, exponent: i32) -> f64 {
 pub(super) fn compare_distances(first: &Sphere, second: &Sphere, ray: &Ray) -> Ordering {
     let (direction, _) = integers(&ray.direction.to_array());
     let ([first, second], _) = numbers([first, second], ray.origin, &direction);
-    let [first_inside, second_inside] = [&first, &second].map(|ball| ball.outside <= BigInt::ZERO);
+    let [first_inside, second_inside] =
+        both([&first, &second], |ball| ball.outside <= BigInt::ZERO);
     let (first_q, second_q) = (first.discriminant, second.discriminant);
 
     // The sign of ±√Q₂ ∓ √Q₁; both zero roots leave no sign of their own.

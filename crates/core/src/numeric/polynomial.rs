@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use super::pair::both;
+
 /// `one + x·x + y·y`, the coefficients named after what they multiply.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Linear {
@@ -85,7 +87,7 @@ impl Quadratic {
         let constant = 0.25 * self.x * self.x - self.xx * self.one;
         let root = (half * half - leading * constant).sqrt();
         let sum = -(half + root.copysign(half));
-        [sum / leading, constant / sum].map(|y| {
+        both([sum / leading, constant / sum], |y| {
             let x = -0.5 * (self.x + self.xy * y) / self.xx;
             (x, y)
         })

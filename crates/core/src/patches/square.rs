@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::model::sphere::Sphere;
+use crate::numeric::pair::both;
 
 /// A square on one of six faces of a cube around a sphere, in the world's axes, seen from the sphere's center: a face that is
 /// halved along both sides `level` times.
@@ -96,7 +97,7 @@ impl Square {
 
     /// One of its 2 × 2 quarters.
     pub(crate) fn quarter(&self, row: usize, col: usize) -> Self {
-        let [x, y] = self.place.map(|place| 2 * place);
+        let [x, y] = both(self.place, |place| 2 * place);
         Self {
             level: self.level + 1,
             place: [x + col as u64, y + row as u64],

@@ -19,6 +19,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::samples::{NONE, Samples};
 use crate::model::color::Color;
 use crate::numeric::lanes::{LANES, f32x8, mask32x8};
+use crate::numeric::pair::both;
 use crate::picture::image::Channels;
 use crate::picture::tile::Tile;
 
@@ -309,7 +310,7 @@ impl Sums {
     fn lines(&self, columns: std::ops::Range<usize>) -> f64 {
         let mut most = 0.0_f64;
         for (rises, falls) in self.rises.iter().zip(&self.falls) {
-            let [rise, fall] = [rises, falls].map(|layer| {
+            let [rise, fall] = both([rises, falls], |layer| {
                 let sum: f32 = layer[columns.clone()].iter().sum();
                 f64::from(sum)
             });

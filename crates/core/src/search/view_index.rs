@@ -21,6 +21,7 @@ use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::numeric::bits::{of_rising_bits, rising_bits};
+use crate::numeric::pair::both;
 use crate::picture::tile::Tile;
 
 /// A world as one view sees it, ready to be asked tile by tile; copies share what was found out.
@@ -273,7 +274,7 @@ impl Lists {
         }
         // Of equal spheres the first is seen.
         order.dedup_by(|one, first| {
-            let [this, other] = [&one, &first].map(|visible| &spheres[visible.index as usize]);
+            let [this, other] = both([&one, &first], |visible| &spheres[visible.index as usize]);
             one.nearest == first.nearest && this == other
         });
         let here = order

@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::numeric::pair::both;
+
 /// Arcs of one circle that are covered: some that are apart, in the order of their begins.
 #[derive(Debug, Default)]
 pub(crate) struct CoveredArcs {
@@ -48,7 +50,7 @@ impl CoveredArcs {
     /// Covers the arc from the first point counterclockwise to the second; vectors toward them may have any length.
     #[inline]
     pub(crate) fn cover(&mut self, points: [DVec2; 2]) {
-        let [begin, end] = points.map(order);
+        let [begin, end] = both(points, order);
         let arc = Arc { begin, end, points };
         if end < begin {
             self.insert(Arc { end: TURN, ..arc });

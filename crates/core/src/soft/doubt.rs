@@ -10,6 +10,7 @@ use super::sun::Sun;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::model::world::World;
+use crate::numeric::pair::both;
 use crate::search::beyond::Beyond;
 
 /// A ball around the part of a sphere that a cell may see.
@@ -60,7 +61,9 @@ impl Extent {
                 )
             }
         };
-        let [near, far] = [aside - spread, aside + spread].map(|aside| aside.clamp(0.0, radius));
+        let [near, far] = both([aside - spread, aside + spread], |aside| {
+            aside.clamp(0.0, radius)
+        });
         let along = |aside: f64| {
             let to_foot = match projection {
                 Projection::Central => (center.length_squared() - aside * aside).max(0.0).sqrt(),

@@ -1,9 +1,11 @@
 //! Where a sun begins to be hidden along a curve on a sphere, and where it is hidden altogether.
 
+use glam::DVec3;
+
 use super::cap::Cap;
 use super::point::SurfacePoint;
 use super::visible::Hidden;
-use glam::DVec3;
+use crate::numeric::pair::both;
 
 /// What may hide a part of a sun from points of a sphere.
 #[derive(Clone, Copy, Debug)]
@@ -216,7 +218,7 @@ fn turn(
     /// Unless it is less than this part of those beside it.
     const NEAR: f64 = 0.1;
     for _ in 0..STEPS {
-        let [low, high] = [before, after].map(|one| {
+        let [low, high] = both([before, after], |one| {
             let away = one.place - middle.place;
             (away, (one.square - middle.square) / away)
         });
@@ -245,7 +247,7 @@ fn turn(
         if nearest > NEAR * before.height.abs().min(after.height.abs()) {
             return None;
         }
-        let [low, high] = [before, after].map(|one| at(0.5 * (one.place + middle.place)));
+        let [low, high] = both([before, after], |one| at(0.5 * (one.place + middle.place)));
         for found in [low, high] {
             if found.is_below() != middle.is_below() {
                 return Some(if found.place < middle.place {

@@ -21,6 +21,7 @@ use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::model::sky::Sky;
+use crate::numeric::pair::both;
 use crate::patches::known::Patches;
 use crate::patches::light::{NodeLight, Shares, Slope, height_and_cosine};
 use crate::patches::patch::Patch;
@@ -186,7 +187,9 @@ impl OfSky<'_, '_> {
         let is_whole = self.side > 0.75 * self.pixel;
         let most = self.allowed * if is_whole { OF_WHOLE } else { OF_PARTS };
         let mut width = (WIDEST * self.pixel * unit).min(WIDEST_ANGLE);
-        let [first, last] = [width, NARROWEST * cell].map(|angle| Square::level_of(normal, angle));
+        let [first, last] = both([width, NARROWEST * cell], |angle| {
+            Square::level_of(normal, angle)
+        });
         let first = first.max(GATHERED.into());
         for level in first..=last.max(first) {
             let square = Square::around(candidate.sphere, normal, level);

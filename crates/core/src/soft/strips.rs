@@ -9,6 +9,7 @@ use super::rectangle::{Cell, Contents, Integral, Light};
 use super::seam::Seam;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
+use crate::numeric::pair::both;
 
 /// A line of a strip: its place from 0 to 1, and its weight in a rule and in a coarser one.
 #[derive(Clone, Copy, Debug)]
@@ -265,7 +266,7 @@ impl Strips {
                         above = middle;
                     }
                 }
-                let [before, after] = change.patterns.map(|pattern| pattern.breaks);
+                let [before, after] = both(change.patterns, |pattern| pattern.breaks);
                 let is_root = light.has_roots_at_seams();
                 (
                     0.5 * (below + above),

@@ -11,6 +11,7 @@ use super::circles::{BLOCK, Circles};
 use super::hemisphere::Hemisphere;
 use super::point::SurfacePoint;
 use crate::numeric::bits::set_bits;
+use crate::numeric::pair::both;
 
 /// The caps that hide directions from a point, and memory to work in.
 #[derive(Debug, Default)]
@@ -193,7 +194,7 @@ fn integral(arcs: &CoveredArcs, cap: &Cap, frame: &Frame, origin: DVec3) -> Bord
             angles += TAU;
         }
         Some(ends) => {
-            let [begin, end] = ends.map(|at| cap.point(frame, at, origin));
+            let [begin, end] = both(ends, |at| cap.point(frame, at, origin));
             sum += begin.cross(end);
             let angle = angle(ends);
             segments += segment(angle);

@@ -2,6 +2,7 @@
 
 use crate::model::color::Color;
 use crate::numeric::kronrod::{self, ABSCISSAS, WEIGHTS};
+use crate::numeric::pair::both;
 use crate::picture::pixel::{Pixel, Status};
 
 /// Moments of a panel.
@@ -123,7 +124,7 @@ impl Part {
             is_lost |= pixel.status == Status::OutOfBudget;
         }
         let mut off = of_alpha * libm::hypot(odd_alpha[0], odd_alpha[1]);
-        let [first, second] = odd.map(|odd| odd.to_array());
+        let [first, second] = both(odd, |odd| odd.to_array());
         for (first, second) in first.into_iter().zip(second) {
             off = off.max(libm::hypot(first, second));
         }

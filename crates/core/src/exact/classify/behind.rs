@@ -2,6 +2,7 @@
 
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
+use crate::numeric::pair::both;
 use crate::numeric::polynomial::{Linear, Quadratic};
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
@@ -70,8 +71,8 @@ impl Cover {
             return false;
         }
         let longest_sq = self.longest_sq;
-        let [least, most] = range(longest_sq, &self.ball, &self.discriminant).map(root);
-        let [other_least, other_most] = range(longest_sq, ball, discriminant).map(root);
+        let [least, most] = both(range(longest_sq, &self.ball, &self.discriminant), root);
+        let [other_least, other_most] = both(range(longest_sq, ball, discriminant), root);
         let squares = self.discriminant - *discriminant;
         let slack = slack(longest_sq, &self.ball, &self.discriminant)
             + slack(longest_sq, ball, discriminant);

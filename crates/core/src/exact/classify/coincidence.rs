@@ -7,6 +7,7 @@ use crate::edges::shadow::Caster;
 use crate::edges::terminator::Plane;
 use crate::exact::scene::{InCamera, Light};
 use crate::model::camera::Projection;
+use crate::numeric::pair::both;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// By how much contours differ, in the tangents of angles, that count as one: more than rounding.
@@ -23,7 +24,7 @@ pub(super) fn has_same_contour(one: &Ball, other: &Ball) -> bool {
         let aside = (one.center - other.center).truncate();
         return (one.radius - other.radius).abs() <= slack && aside.length() <= slack;
     }
-    let far = [one, other].map(|ball| ball.center.length());
+    let far = both([one, other], |ball| ball.center.length());
     let slack = ALIKE * far[0] * far[1];
     (one.radius * far[1] - other.radius * far[0]).abs() <= slack
         && (one.center * far[1] - other.center * far[0]).length() <= slack
@@ -48,7 +49,7 @@ pub(super) fn contours_apart(cell: &Cell, ball: &Ball) -> f64 {
 /// The world's numbers tell: differences of doubles that are close to each other are exact, and in the camera's frame
 /// they are all rounding.
 pub(super) fn nesting(scene: &InCamera<'_>, one: usize, other: usize) -> Option<bool> {
-    let [one, other] = [one, other].map(|sphere| &scene.world.spheres()[sphere]);
+    let [one, other] = both([one, other], |sphere| &scene.world.spheres()[sphere]);
     let apart = (one.center() - other.center()).length();
     let larger = other.radius() - one.radius();
     (apart <= larger.abs()).then_some(larger > 0.0)
@@ -89,7 +90,7 @@ pub(super) fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) 
 pub(super) fn has_same_shadow(one: &Caster, other: &Caster) -> bool {
     let slack = ALIKE * (one.center.length() + other.center.length() + one.radius + other.radius);
     if let (Some(cone), Some(other_cone)) = (&one.cone, &other.cone) {
-        let [near, far] = [cone, other_cone].map(|cone| cone.axis.length());
+        let [near, far] = both([cone, other_cone], |cone| cone.axis.length());
         let slack = slack * near.max(far);
         return (one.radius * far - other.radius * near).abs() <= slack
             && (cone.axis * far - other_cone.axis * near).length() <= slack;

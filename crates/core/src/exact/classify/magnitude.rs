@@ -2,6 +2,7 @@
 
 use crate::edges::cell::Ball;
 use crate::model::view::View;
+use crate::numeric::pair::both;
 
 /// Squares of squares of these neither over- nor underflow: the fourth power of 1e60, 1e240, leaves room
 /// for sums and for a product with 1e60 below the largest double, 1.8e308.
@@ -12,7 +13,7 @@ const MODERATE: std::ops::Range<f64> = 1e-60..1e60;
 pub(crate) fn is_view_moderate(view: &View) -> bool {
     let distance = view.magnification();
     let pixel = view.pixel_size();
-    let sides = [pixel, pixel / distance].map(|sides| sides.to_array());
+    let sides = both([pixel, pixel / distance], |sides| sides.to_array());
     let mut numbers = sides.as_flattened().iter().chain([&distance]);
     numbers.all(|number| MODERATE.contains(number))
 }

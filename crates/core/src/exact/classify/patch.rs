@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::edges::cell::{Ball, Cell};
+use crate::numeric::pair::both;
 use crate::numeric::polynomial::{Linear, Quadratic};
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 
@@ -85,16 +86,16 @@ impl Patch {
         let spread = discriminant.spread();
         let root = |square: f64| square.max(0.0).sqrt();
         let z = ball.center.z;
-        let roots = [spread, -spread].map(|spread| root(discriminant.one + spread));
+        let roots = both([spread, -spread], |spread| root(discriminant.one + spread));
         let [nearest, farthest] = if ball.is_apart() {
             roots.map(|root| z - root)
         } else {
             let power = ball.power_of(cell.middle.with_z(0.0));
-            let around = [-spread, spread].map(|spread| power + spread);
-            [0, 1].map(|end| around[end] / (z + roots[end]))
+            let around = both([-spread, spread], |spread| power + spread);
+            both([0, 1], |end| around[end] / (z + roots[end]))
         };
         // Nothing is seen behind the plane, and no near side behind the center.
-        let [nearest, farthest] = [nearest, farthest].map(|place| place.min(z).max(0.0));
+        let [nearest, farthest] = both([nearest, farthest], |place| place.min(z).max(0.0));
         let half_diagonal = 0.5 * DVec2::from_array(cell.size).length();
         let size = if ball.is_apart() {
             cell.extent() + ball.center.length() + ball.radius
@@ -130,7 +131,7 @@ impl Patch {
     /// The least and the largest cosine, from 0 to 1, of the angle between a direction and the way from a point to any of it.
     pub(super) fn cosines_from(&self, point: DVec3, direction: DVec3) -> [f64; 2] {
         const HALF_TURN: f64 = std::f64::consts::PI;
-        let [one, other] = self.widths().map(|(end, around)| {
+        let [one, other] = both(self.widths(), |(end, around)| {
             let way = end - point;
             let distance = way.length();
             let angle = if around < distance {
@@ -142,7 +143,7 @@ impl Patch {
         });
         let wider = one.1.max(other.1);
         let angle = |a: DVec3, b: DVec3| libm::atan2(a.cross(b).length(), a.dot(b));
-        let [of_one, of_other] = [one.0, other.0].map(|way| angle(way, direction));
+        let [of_one, of_other] = both([one.0, other.0], |way| angle(way, direction));
         // Ways between both turn no farther from the nearer one of them than half of how far these are apart.
         let wider = wider + 0.5 * angle(one.0, other.0);
         let nearest = of_one.min(of_other) - wider;
@@ -153,7 +154,9 @@ impl Patch {
         }
         let farthest = farthest.min(0.5 * HALF_TURN);
         let nearest = nearest.clamp(0.0, 0.5 * HALF_TURN);
-        [farthest, nearest].map(|angle| libm::cos(angle).clamp(0.0, 1.0))
+        both([farthest, nearest], |angle| {
+            libm::cos(angle).clamp(0.0, 1.0)
+        })
     }
 
     /// Its width where it begins: for rays from an eye, the width grows with the distance.

@@ -7,6 +7,7 @@ use crate::model::color::Color;
 use crate::model::light::Light;
 use crate::model::roughness::PixelKey;
 use crate::numeric::bernstein::{error_of_mean, least_error};
+use crate::numeric::pair::both;
 use crate::picture::pixel::{Evidence, Pixel, Status};
 use crate::sampling::Pairs;
 
@@ -75,7 +76,7 @@ impl Limits {
 /// which falls with s, and that of smooth light, which falls with s².
 fn expected(error: f64, side: u32, of: Scattering) -> f64 {
     const POWER: f64 = -0.9;
-    let [now, most] = [side, of.most].map(|side| samples(side) as f64);
+    let [now, most] = both([side, of.most], |side| samples(side) as f64);
     let of_range = |count| least_error(of.range, count);
     of_range(most) + (error - of_range(now)) * libm::pow(most / now, POWER)
 }

@@ -9,6 +9,7 @@ use super::outlines::outlines;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Contents;
 use crate::numeric::lanes::f64x8;
+use crate::numeric::pair::both;
 
 /// The surface in front of a curve, or next behind it, at eight places.
 #[derive(Clone, Copy)]
@@ -211,7 +212,7 @@ impl Boundary {
             Edge::Right => 1,
             _ => return,
         };
-        let [low, high] = stretch.piece.ends.map(|end| end.y);
+        let [low, high] = both(stretch.piece.ends, |end| end.y);
         for y in &self.crossings[side] {
             let at = (y - low) / (high - low);
             if at > stretch.start && at < stretch.end {
@@ -232,7 +233,7 @@ impl Boundary {
         if setting.goal.parts > 1 {
             return 0;
         }
-        let [low, high] = stretch.piece.ends.map(|end| end.y);
+        let [low, high] = both(stretch.piece.ends, |end| end.y);
         let mut intervals = 0;
         for y in &self.crossings[side] {
             let at = (y - low) / (high - low);

@@ -21,6 +21,7 @@ use crate::exact::scene::Light;
 use crate::light::lobe::Beyond;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{f64x8, mask64x8};
+use crate::numeric::pair::both;
 use fearless_simd::Simd;
 
 /// The integrand: the diffuse light of a light, for an intensity and an albedo of 1.
@@ -229,8 +230,9 @@ impl<S: Simd> Integrand<'_, '_, S> {
             of_power: (&coarse.nodes, &coarse.weights),
             plain: &SIX,
         };
-        let [fine, coarse] =
-            [fine, coarse].map(|rule| self.by_rule(simd, way, &rule, from_root, noise));
+        let [fine, coarse] = both([fine, coarse], |rule| {
+            self.by_rule(simd, way, &rule, from_root, noise)
+        });
         let width = way.1.abs();
         Integral {
             value: fine * width,

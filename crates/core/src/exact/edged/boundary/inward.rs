@@ -11,6 +11,7 @@ use crate::exact::classify::contents::Contents;
 use crate::exact::edged::rule::MIDDLE;
 use crate::exact::scene::InCamera;
 use crate::model::camera::Projection;
+use crate::numeric::pair::both;
 
 /// 1 where the inner side lies to the left of a curve, -1 to its right.
 #[inline(always)]
@@ -37,7 +38,7 @@ pub(super) fn sign<S: Simd>(
             }
         }
         (Edge::Seam, Shape::Circle(circle)) => {
-            let [one, other] = curve.own.map(|own| contents.active[own].ball.center);
+            let [one, other] = both(curve.own, |own| contents.active[own].ball.center);
             let axis = one - other;
             let along = axis.cross(point - circle.middle);
             let across = (point - one).cross(along);

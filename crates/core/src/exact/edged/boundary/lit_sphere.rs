@@ -21,6 +21,7 @@ use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::lanes::f64x8;
+use crate::numeric::pair::both;
 use crate::picture::image::Channels;
 use crate::search::visibility::Visibility;
 
@@ -203,7 +204,9 @@ fn brute(light: impl Fn(f64) -> f64, start: f64, end: f64) -> f64 {
     let at = |share: f64| start + (end - start) * share;
     let mut stops = vec![start];
     for look in 0..LOOKS {
-        let [one, other] = [look, look + 1].map(|look| at(f64::from(look) / f64::from(LOOKS)));
+        let [one, other] = both([look, look + 1], |look| {
+            at(f64::from(look) / f64::from(LOOKS))
+        });
         let (is_lit, is_lit_after) = (light(one) > 0.0, light(other) > 0.0);
         if is_lit == is_lit_after {
             continue;
