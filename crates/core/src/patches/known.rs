@@ -32,7 +32,7 @@ enum Kind {
 /// The light at a node, or on a square; or the spheres that may hide light from a square.
 #[derive(Clone, Debug)]
 enum Light {
-    Node(NodeLight),
+    Node(Arc<NodeLight>),
     Patch(Arc<Patch>),
     List(Arc<Vec<u32>>),
 }
@@ -67,10 +67,10 @@ impl Patches {
     pub(crate) fn node(&self, node: &Node, make: impl FnOnce() -> NodeLight) -> NodeLight {
         let (key, hash) = ((node.corner(), Kind::Node), node.corner().hash());
         if let Some(Light::Node(light)) = self.get(&key, hash) {
-            return light;
+            return *light;
         }
         let light = make();
-        self.keep(key, hash, Light::Node(light));
+        self.keep(key, hash, Light::Node(Arc::new(light)));
         light
     }
 

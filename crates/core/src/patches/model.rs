@@ -1,75 +1,110 @@
 //! The light between nodes.
 //!
 //! Where a sphere touches another or leaves it, light goes with the square root of the distance: with the cosine c of the angle
-//! under which the other one is seen, whose derivative is known. So light is a(x) + Σ b(x) c(x), with such a sum over near
-//! spheres, where c is known anywhere, and a and b are polynomials through what they are at nodes.
+//! under which the other one is seen, by which its derivatives are known. So light is a(x) + Σ (b(x) c(x) + d(x) c(x)²), with
+//! such a sum over near spheres. The cosines c are known anywhere; b and d are linear between what they are at nodes, along both
+//! sides; a goes through what it is at nodes, and has its derivatives there.
+//!
+//! Source of the surface through values and derivatives at four corners: Coons, "Surfaces for Computer-Aided Design of Space
+//! Forms" (1967), with cubic curves along the sides. Polynomials of the third degree are exact.
 
 use glam::{DVec2, DVec3};
 
-use super::light::{NodeLight, Shares, height_and_cosine};
+use super::light::{FAR, NodeLight, Shares, cosine_by_normal, height_and_cosine};
 use super::square::{Square, point};
 use crate::model::sphere::Sphere;
 
-/// Nodes along a side.
-pub(crate) const SIDE: usize = 3;
-
-/// What is known at the nodes of a square, row by row.
-pub(crate) type Grid<T> = [[T; SIDE]; SIDE];
+/// The corners of a square, from 0 to 1 along either side.
+const CORNERS: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
 
 /// The light of a square.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
-    smooth: Grid<Shares>,
+    corners: [Smooth; 4],
     roots: Vec<Root>,
+    /// How much expansions by cosines differ between corners.
+    pub(crate) doubt: f64,
 }
 
-/// The light that goes with the cosine of a sphere.
+/// The light that does not go with cosines, and its derivatives along both sides.
+#[derive(Clone, Copy, Debug, Default)]
+struct Smooth {
+    value: Shares,
+    along: Shares,
+    across: Shares,
+}
+
+/// The light that goes with the cosine c of a sphere: b c + d c² with b and d at the corners.
 #[derive(Clone, Debug)]
 struct Root {
     sphere: u32,
-    by_cosine: Grid<Shares>,
-    /// The largest cosine at a node.
-    largest: f64,
+    linear: [Shares; 4],
+    square: [Shares; 4],
 }
 
-/// The weights of three values at 0, ½ and 1.
-fn weights(at: f64) -> [f64; SIDE] {
-    let (from_middle, to_end) = (2.0 * at - 1.0, 1.0 - at);
-    [-from_middle * to_end, 4.0 * at * to_end, at * from_middle]
+/// What the ends 0 and 1 of an interval weigh at a place: their values and their slopes of a cubic polynomial, and their values
+/// of a linear one.
+#[derive(Clone, Copy, Debug)]
+struct Weights {
+    values: DVec2,
+    slopes: DVec2,
+    linear: DVec2,
 }
 
-/// The place of a node, from 0 to 1 along either side.
-pub(crate) fn place(row: usize, col: usize) -> DVec2 {
-    DVec2::new(col as f64, row as f64) / (SIDE - 1) as f64
-}
-
-/// The polynomial of second degree in both directions through the light at nodes.
-fn polynomial(shares: &Grid<Shares>, along: &[f64; SIDE], across: &[f64; SIDE]) -> Shares {
-    let mut sum = Shares::ZERO;
-    for (row, across) in shares.iter().zip(across) {
-        for (value, along) in row.iter().zip(along) {
-            sum += *value * (along * across);
+impl Weights {
+    fn new(at: f64) -> Self {
+        let to_end = 1.0 - at;
+        Self {
+            values: DVec2::new(
+                (1.0 + 2.0 * at) * to_end * to_end,
+                (3.0 - 2.0 * at) * at * at,
+            ),
+            slopes: DVec2::new(at * to_end * to_end, -at * at * to_end),
+            linear: DVec2::new(to_end, at),
         }
+    }
+}
+
+/// The sum of what corners know, by weights along both sides.
+fn sum(corners: &[Smooth; 4], along: &Weights, across: &Weights) -> Shares {
+    let mut sum = Shares::ZERO;
+    for (number, corner) in corners.iter().enumerate() {
+        let (col, row) = (number % 2, number / 2);
+        let (right, up) = (along.linear[col], across.linear[row]);
+        sum += corner.value * (along.values[col] * up + right * (across.values[row] - up))
+            + corner.along * (along.slopes[col] * up)
+            + corner.across * (right * across.slopes[row]);
     }
     sum
 }
 
-/// The largest second difference along rows and columns.
-fn bend(shares: &Grid<Shares>) -> f64 {
-    let [low, middle, high] = shares;
-    let mut bend = Shares::ZERO;
-    for row in shares {
-        bend = bend.max((row[0] - row[1] * 2.0 + row[2]).abs());
+/// What is linear along both sides between corners, and its derivatives.
+fn between(corners: &[Shares; 4], at: DVec2) -> Smooth {
+    let [first, right, up, last] = *corners;
+    let (below, above) = (first.lerp(right, at.x), up.lerp(last, at.x));
+    Smooth {
+        value: below.lerp(above, at.y),
+        along: (right - first).lerp(last - up, at.y),
+        across: above - below,
     }
-    for ((before, middle), after) in low.iter().zip(middle).zip(high) {
-        bend = bend.max((*before - *middle * 2.0 + *after).abs());
+}
+
+impl Root {
+    /// Its light at a place where the cosine is known, and how that changes with the place while the cosine stays what it is.
+    fn at(&self, at: DVec2, cosine: f64) -> Smooth {
+        let (linear, square) = (between(&self.linear, at), between(&self.square, at));
+        let of = |linear: Shares, square: Shares| (linear + square * cosine) * cosine;
+        Smooth {
+            value: of(linear.value, square.value),
+            along: of(linear.along, square.along),
+            across: of(linear.across, square.across),
+        }
     }
-    bend.max_element()
 }
 
 impl Model {
-    /// That of a square, from the light at its nodes.
-    pub(crate) fn new(square: &Square, lights: &Grid<NodeLight>, spheres: &[Sphere]) -> Self {
+    /// That of a square, from the light at its corners.
+    pub(crate) fn new(square: &Square, lights: &[NodeLight; 4], spheres: &[Sphere]) -> Self {
         /// Higher above a sphere, in parts of the chord from the middle of the square to a corner, light is smooth enough.
         /// Not tuned.
         const HIGHEST: f64 = 4.0;
@@ -77,19 +112,12 @@ impl Model {
         let (_, chord) = square.extent();
         let highest = HIGHEST * chord * own.radius();
         let mut model = Self {
-            smooth: [[Shares::ZERO; SIDE]; SIDE],
+            corners: [Smooth::default(); 4],
             roots: Vec::new(),
+            doubt: 0.0,
         };
-        for (value, light) in model
-            .smooth
-            .as_flattened_mut()
-            .iter_mut()
-            .zip(lights.as_flattened())
-        {
-            *value = light.shares;
-        }
         let mut tried = Vec::new();
-        for light in lights.as_flattened() {
+        for light in lights {
             for slope in &light.slopes {
                 let Some(sphere) = slope.sphere else { break };
                 if f64::from(slope.height) < highest && !tried.contains(&sphere) {
@@ -98,51 +126,86 @@ impl Model {
                 }
             }
         }
+        for (number, light) in lights.iter().enumerate() {
+            model.corners[number] = model.smooth(square, CORNERS[number], light, spheres);
+        }
         model
     }
 
-    /// Separates the light that goes with the cosine of a sphere, if all nodes know it.
-    fn add(&mut self, square: &Square, lights: &Grid<NodeLight>, spheres: &[Sphere], sphere: u32) {
-        let (own, other) = (&spheres[square.sphere as usize], &spheres[sphere as usize]);
+    /// Separates the light that goes with the cosine of a sphere, if all corners know it.
+    fn add(&mut self, square: &Square, lights: &[NodeLight; 4], spheres: &[Sphere], sphere: u32) {
+        let own = &spheres[square.sphere as usize];
         let mut root = Root {
             sphere,
-            by_cosine: [[Shares::ZERO; SIDE]; SIDE],
-            largest: 0.0,
+            linear: [Shares::ZERO; 4],
+            square: [Shares::ZERO; 4],
         };
-        let mut smooth = self.smooth;
-        for row in 0..SIDE {
-            for col in 0..SIDE {
-                let position = point(own, square.normal(place(row, col)));
-                let (height, cosine) = height_and_cosine(other, position);
-                let Some(slope) = lights[row][col].slope(sphere, height) else {
-                    return;
-                };
-                root.by_cosine[row][col] = slope;
-                root.largest = root.largest.max(cosine);
-                smooth[row][col] -= slope * cosine;
+        let mut cosines = [0.0; 4];
+        let mut slopes = [FAR; 4];
+        for (number, light) in lights.iter().enumerate() {
+            let position = point(own, square.normal(CORNERS[number]));
+            let (height, cosine) = height_and_cosine(&spheres[sphere as usize], position);
+            let Some(slope) = light.slope(sphere, height) else {
+                return;
+            };
+            root.linear[number] = slope.by_cosine - slope.twice_by_cosine * cosine;
+            root.square[number] = slope.twice_by_cosine * 0.5;
+            (cosines[number], slopes[number]) = (cosine, slope);
+        }
+        self.roots.push(root);
+        // What one corner expects of the light at another, and what that one knows.
+        let mut doubt: f64 = 0.0;
+        for (cosine, slope) in cosines.iter().zip(&slopes) {
+            for (other, at_other) in cosines.iter().zip(&slopes) {
+                let step = other - cosine;
+                let expected = slope.by_cosine + slope.twice_by_cosine * step;
+                let missed = (at_other.by_cosine - expected) * step;
+                doubt = doubt.max(missed.abs().max_element());
             }
         }
-        self.smooth = smooth;
-        self.roots.push(root);
+        self.doubt += doubt;
+    }
+
+    /// What the node at a corner knows of the light that does not go with cosines.
+    fn smooth(&self, square: &Square, at: DVec2, light: &NodeLight, spheres: &[Sphere]) -> Smooth {
+        let own = &spheres[square.sphere as usize];
+        let position = point(own, square.normal(at));
+        let tangents = square.tangents(at);
+        let mut smooth = Smooth {
+            value: light.shares,
+            ..Smooth::default()
+        };
+        let mut turn = |by_normal: &dyn Fn(DVec3) -> Shares| {
+            smooth.along += by_normal(tangents[0]);
+            smooth.across += by_normal(tangents[1]);
+        };
+        turn(&|along| Shares::new(light.by_normal[0].dot(along), light.by_normal[1].dot(along)));
+        for slope in &light.slopes {
+            let Some(sphere) = slope.sphere else { break };
+            let other = &spheres[sphere as usize];
+            let has_root = self.roots.iter().any(|root| root.sphere == sphere);
+            if !has_root {
+                let cosine = cosine_by_normal(own.radius(), other, position);
+                turn(&|along| slope.by_cosine * cosine.dot(along));
+            }
+        }
+        for root in &self.roots {
+            let (_, cosine) = height_and_cosine(&spheres[root.sphere as usize], position);
+            let light = root.at(at, cosine);
+            smooth.value -= light.value;
+            smooth.along -= light.along;
+            smooth.across -= light.across;
+        }
+        smooth
     }
 
     /// The light at a place from 0 to 1 along either side, and at this position in the world.
     pub(crate) fn at(&self, at: DVec2, position: DVec3, spheres: &[Sphere]) -> Shares {
-        let (along, across) = (weights(at.x), weights(at.y));
-        let mut sum = polynomial(&self.smooth, &along, &across);
+        let mut light = sum(&self.corners, &Weights::new(at.x), &Weights::new(at.y));
         for root in &self.roots {
             let (_, cosine) = height_and_cosine(&spheres[root.sphere as usize], position);
-            sum += polynomial(&root.by_cosine, &along, &across) * cosine;
+            light += root.at(at, cosine).value;
         }
-        sum
-    }
-
-    /// How much light bends on the square, but for cosines: the largest second difference of nodes.
-    pub(crate) fn bend(&self) -> f64 {
-        let of_roots = self
-            .roots
-            .iter()
-            .map(|root| bend(&root.by_cosine) * root.largest);
-        bend(&self.smooth) + of_roots.sum::<f64>()
+        light
     }
 }

@@ -72,6 +72,20 @@ impl Square {
         toward.normalize()
     }
 
+    /// How the normal at a place changes along both sides.
+    pub(crate) fn tangents(&self, at: DVec2) -> [DVec3; 2] {
+        let side = libm::scalbn(1.0, self.level.into());
+        let normal = self.normal(at);
+        // The length of the vector on the face is the inverse of the normal's largest component.
+        let axis = usize::from(self.axis);
+        let step = 2.0 / side * normal[axis].abs();
+        both([axis + 1, axis + 2], |across| {
+            let mut along = DVec3::ZERO;
+            along[across % 3] = step;
+            along - normal * (normal[across % 3] * step)
+        })
+    }
+
     /// The place of a normal in it, from 0 to 1 along either side.
     pub(crate) fn locate(&self, normal: DVec3) -> DVec2 {
         let (_, _, at) = face(normal);

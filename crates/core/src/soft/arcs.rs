@@ -16,8 +16,17 @@ struct Arc {
     /// Where it begins and ends, as [`order`] tells.
     begin: f64,
     end: f64,
-    /// Vectors toward these points; an end of the order needs none.
-    points: [DVec2; 2],
+    /// These points; an end of the order needs none.
+    ends: [End; 2],
+}
+
+/// An end of an arc.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct End {
+    /// A vector toward it in the circle's frame.
+    pub(crate) at: DVec2,
+    /// The number of the cap whose circle crosses there.
+    pub(crate) cap: usize,
 }
 
 /// What [`order`] grows by in a turn.
@@ -47,11 +56,13 @@ impl CoveredArcs {
         }
     }
 
-    /// Covers the arc from the first point counterclockwise to the second; vectors toward them may have any length.
+    /// Covers the arc from the first point counterclockwise to the second, by the cap with some number; vectors toward the
+    /// points may have any length.
     #[inline]
-    pub(crate) fn cover(&mut self, points: [DVec2; 2]) {
+    pub(crate) fn cover(&mut self, points: [DVec2; 2], cap: usize) {
         let [begin, end] = both(points, order);
-        let arc = Arc { begin, end, points };
+        let ends = both(points, |at| End { at, cap });
+        let arc = Arc { begin, end, ends };
         if end < begin {
             self.insert(Arc { end: TURN, ..arc });
             self.insert(Arc { begin: 0.0, ..arc });
@@ -79,23 +90,26 @@ impl CoveredArcs {
         let merged = &mut arcs[first];
         if arc.begin < merged.begin {
             merged.begin = arc.begin;
-            merged.points[0] = arc.points[0];
+            merged.ends[0] = arc.ends[0];
         }
         let end = if arc.end > end.end { arc } else { end };
         merged.end = end.end;
-        merged.points[1] = end.points[1];
+        merged.ends[1] = end.ends[1];
         arcs.drain(first + 1..last);
     }
 
-    /// Calls `visit` with unit vectors toward the begin and the end of each arc that is not covered; `None` stands for the
-    /// whole circle.
-    pub(crate) fn for_each_exposed(&self, mut visit: impl FnMut(Option<[DVec2; 2]>)) {
+    /// Calls `visit` with the begin and the end of each arc that is not covered, and unit vectors toward them; `None` stands
+    /// for the whole circle.
+    pub(crate) fn for_each_exposed(&self, mut visit: impl FnMut(Option<[End; 2]>)) {
         let (Some(first), Some(last)) = (self.arcs.first(), self.arcs.last()) else {
             visit(None);
             return;
         };
         let mut between = |one: &Arc, other: &Arc| {
-            visit(Some([one.points[1], other.points[0]].map(DVec2::normalize)));
+            visit(Some(both([one.ends[1], other.ends[0]], |end| End {
+                at: end.at.normalize(),
+                ..end
+            })));
         };
         for pair in self.arcs.windows(2) {
             between(&pair[0], &pair[1]);

@@ -62,7 +62,7 @@ mod tests {
     use crate::model::sky::Sky;
     use crate::search::hierarchy::Hierarchy;
     use crate::soft::point::SurfacePoint;
-    use crate::soft::sky::{shares, sky_light};
+    use crate::soft::sky::{reached, sky_light};
     use crate::soft::visible::Hidden;
 
     #[test]
@@ -105,7 +105,9 @@ mod tests {
                     to_eye: normal,
                     sphere: own,
                 };
-                let by_list = shares(&sky, &point, &bodies, &mut hidden, &mut |_, _| {}).x;
+                let by_list = reached(&sky, &point, &bodies, &mut hidden, &mut |_| {})
+                    .shares
+                    .x;
                 let by_all = sky_light(&sky, &point, Some(&occluders), &mut hidden).x;
                 assert!((by_list - by_all).abs() < 1e-11, "{by_list} {by_all}");
             }

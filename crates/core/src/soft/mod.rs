@@ -12,7 +12,7 @@
 //! | `rectangle.rs`, `cell.rs` | a pixel or a part of one, and the average over it |
 //! | `curve.rs`, `rule.rs`, `strips.rs` | the same along lines |
 //! | `edges.rs`, `of_sun.rs` | a sun's light in a pixel: the places on a line are found where spheres begin to hide it |
-//! | `hemisphere.rs`, `gather.rs`, `bodies.rs`, `list.rs`, `of_sky.rs` | a sky's light in a pixel: from `patches`, whose nodes only some spheres hide light from |
+//! | `hemisphere.rs`, `gather.rs`, `bodies.rs`, `list.rs`, `node.rs`, `of_sky.rs` | a sky's light in a pixel: from `patches`, whose nodes only some spheres hide light from |
 //! | `doubt.rs` | changes of light that points of a cell may miss |
 //! | `scene.rs`, `picture.rs` | the averages over pixels, by samples or to a tolerance |
 
@@ -31,6 +31,7 @@ mod hemisphere;
 mod light;
 mod line;
 mod list;
+mod node;
 mod of_sky;
 mod of_sun;
 pub(crate) mod picture;

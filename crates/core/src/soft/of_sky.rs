@@ -11,11 +11,12 @@ use super::doubt::{Extent, of_bumps, of_shadows, of_small_spheres};
 use super::edges::Break;
 use super::gather::Neighborhood;
 use super::list::{GATHERED, arrange, gathered, missed, of_part};
+use super::node::light_at_node;
 use super::point::{Occluders, SurfacePoint};
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
 use super::rule::integral_along;
 use super::scene::Soft;
-use super::sky::{light_of, shares, sky_light};
+use super::sky::{light_of, sky_light};
 use super::visible::Hidden;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
@@ -23,7 +24,7 @@ use crate::model::roughness::PixelKey;
 use crate::model::sky::Sky;
 use crate::numeric::pair::both;
 use crate::patches::known::Patches;
-use crate::patches::light::{NodeLight, Shares, Slope, height_and_cosine};
+use crate::patches::light::{NodeLight, Shares};
 use crate::patches::patch::Patch;
 use crate::patches::square::{Node, Square, point as point_of};
 
@@ -119,35 +120,14 @@ impl OfSky<'_, '_> {
         let patches = self.patches;
         patches.node(node, || {
             let home = node.home();
-            let (own, normal) = (home.sphere as usize, node.normal());
-            let point = SurfacePoint {
-                position: point_of(&occluders.spheres[own], normal),
-                normal,
-                shading: normal,
-                to_eye: normal,
-                sphere: own,
-            };
-            let sky = self.sky;
-            let mut light = NodeLight::default();
-            let mut add = |sphere: u32, by_cosine: Shares| {
-                let Some(near) = occluders.spheres.get(sphere as usize) else {
-                    return;
-                };
-                let (height, _) = height_and_cosine(near, point.position);
-                light.add(Slope {
-                    sphere: Some(sphere),
-                    height: height as f32,
-                    by_cosine,
-                });
-            };
             if self.memory.arranged != Some(home) {
                 let list = self.list(&home, occluders);
                 arrange(&list, occluders, &mut self.memory.bodies);
                 self.memory.arranged = Some(home);
             }
+            let at = (home.sphere as usize, node.normal());
             let bodies = &self.memory.bodies;
-            let shares = shares(sky, &point, bodies, self.hidden, &mut add);
-            NodeLight { shares, ..light }
+            light_at_node(self.sky, at, (bodies, occluders.spheres), self.hidden)
         })
     }
 
@@ -163,7 +143,8 @@ impl OfSky<'_, '_> {
         }
         let patches = self.patches;
         let patch = patches.patch(square, || {
-            let list = self.list(square, &occluders);
+            let around = square.parent().filter(|around| around.level() >= GATHERED);
+            let list = self.list(&around.unwrap_or(*square), &occluders);
             let missed = missed(&list, square, &occluders);
             let mut light = |node: &Node| self.node(node, &occluders);
             Patch::new(square, missed, occluders.spheres, &mut light)
@@ -196,7 +177,7 @@ impl OfSky<'_, '_> {
             let at = square.locate(normal);
             let allowed = most * (cell / width).max(1.0);
             let patch = self.patch(&square)?;
-            let claim = patch.claim_at(at);
+            let claim = patch.claim;
             if claim <= allowed || level >= last {
                 let spheres = self.soft.world.spheres();
                 let position = point_of(&spheres[candidate.sphere], normal);

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::arcs::CoveredArcs;
+use super::arcs::{CoveredArcs, End};
 use super::bodies::Bodies;
 use super::cap::{Cap, Cover, Frame, Meeting};
 use super::circles::{BLOCK, Circles};
@@ -21,17 +21,30 @@ pub(crate) struct Hidden {
     /// The caps that were left, side by side.
     circles: Circles,
     arcs: CoveredArcs,
-    /// How the last integral over all directions changes with the cosines of the caps whose circles are visible.
-    slopes: Vec<(u32, DVec3)>,
+    /// How the last integral over all directions changes with the caps whose circles are visible.
+    slopes: Vec<CapSlope>,
 }
 
-/// What happens to the integral over visible directions if a cap changes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Border {
-    /// The part of the integral that its arcs contribute.
+/// How the product of the integral over visible directions with a vector changes with a cap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CapSlope {
+    pub(crate) cap: Cap,
+    /// The first and the second derivative by the cosine of its angle.
+    pub(crate) by_cosine: f64,
+    pub(crate) twice_by_cosine: f64,
+    /// That by its axis, a vector across the axis.
+    pub(crate) by_axis: DVec3,
+}
+
+/// The arcs of a circle that no cap covers.
+#[derive(Clone, Copy, Debug, Default)]
+struct Border {
+    /// ½ ∮ (r − o) × dr.
     part: DVec3,
-    /// The derivative of the integral by the cosine of its angle.
-    by_cosine: DVec3,
+    /// The integrals of 1, of cos φ and sin φ, and of ½ cos 2 φ and ½ sin 2 φ.
+    angles: f64,
+    first: DVec2,
+    second: DVec2,
 }
 
 impl Hidden {
@@ -88,22 +101,51 @@ impl Hidden {
     /// By Stokes' theorem the integral over a region of the sphere is ½ ∮ r × dr along its border. An arc from P to Q of the
     /// circle around a cap with the axis a contributes ½ P × Q and the segment between the arc and its chord, ½ s² (φ − sin φ) a,
     /// with the sine s of the cap's angle and the angle φ of the arc.
-    pub(crate) fn seen(&mut self) -> DVec3 {
+    ///
+    /// [`slopes`](Self::slopes) tells how its product with `normal` changes.
+    pub(crate) fn seen(&mut self, normal: DVec3) -> DVec3 {
         self.arrange();
         self.slopes.clear();
         let mut sum = DVec3::ZERO;
         for index in 0..self.caps.len() {
             if let Some(border) = self.along(index, None, DVec3::ZERO) {
                 sum -= border.part;
-                self.slopes
-                    .push((self.caps[index].sphere, border.by_cosine));
+                let mut slope = border.slope(&self.caps[index], normal);
+                slope.twice_by_cosine += self.by_ends(&slope.cap, normal);
+                self.slopes.push(slope);
             }
         }
         sum
     }
 
-    /// The spheres whose circles are visible, with the derivatives of the last [`seen`](Self::seen) by the cosines of their caps.
-    pub(crate) fn slopes(&self) -> &[(u32, DVec3)] {
+    /// How the integral of n·r along the last circle's arcs changes with the cosine of its cap because their ends move along the
+    /// circles that cross there.
+    fn by_ends(&self, cap: &Cap, normal: DVec3) -> f64 {
+        /// Where circles cross under a smaller angle, ends move too fast to tell.
+        const LEAST: f64 = 1e-3;
+        let frame = cap.frame();
+        let moved = |end: &End| {
+            let point = cap.point(&frame, end.at, DVec3::ZERO);
+            let other = &self.caps[end.cap];
+            // Along the other circle the cosine changes by this part of a step.
+            let change = cap.axis.dot(other.axis.cross(point));
+            if change.abs() <= LEAST * cap.sine * other.sine {
+                return 0.0;
+            }
+            let turn = cap.axis.dot(other.axis) - cap.cosine * other.cosine;
+            normal.dot(point) * turn / (cap.sine * cap.sine * change)
+        };
+        let mut sum = 0.0;
+        self.arcs.for_each_exposed(|ends| {
+            if let Some([begin, end]) = ends {
+                sum += moved(&end) - moved(&begin);
+            }
+        });
+        sum
+    }
+
+    /// The caps whose circles are visible, with the derivatives of what the last [`seen`](Self::seen) found.
+    pub(crate) fn slopes(&self) -> &[CapSlope] {
         &self.slopes
     }
 
@@ -138,7 +180,7 @@ impl Hidden {
             match cap.covered(&frame, disc, false) {
                 Cover::Nothing => return None,
                 Cover::All => {}
-                Cover::Arc([begin, end]) => arcs.cover([end, begin]),
+                Cover::Arc([begin, end]) => arcs.cover([end, begin], index),
             }
         }
         for block in 0..circles.blocks() {
@@ -155,7 +197,7 @@ impl Hidden {
                     Meeting::Apart => {}
                     Meeting::Inside => return None,
                     Meeting::Crossing(crossing) => {
-                        arcs.cover(crossing.ends(&frame));
+                        arcs.cover(crossing.ends(&frame), number);
                         if arcs.is_whole() {
                             return None;
                         }
@@ -170,11 +212,11 @@ impl Hidden {
     fn along_disc(&mut self, disc: &Cap) -> DVec3 {
         let frame = disc.frame();
         self.arcs.clear();
-        for cap in &self.caps {
+        for (number, cap) in self.caps.iter().enumerate() {
             match disc.covered(&frame, cap, false) {
                 Cover::Nothing => {}
                 Cover::All => return DVec3::ZERO,
-                Cover::Arc(points) => self.arcs.cover(points),
+                Cover::Arc(points) => self.arcs.cover(points, number),
             }
             if self.arcs.is_whole() {
                 return DVec3::ZERO;
@@ -184,28 +226,58 @@ impl Hidden {
     }
 }
 
-/// ½ ∮ (r − o) × dr and ∫ r dφ along the arcs of a circle that are not covered, counterclockwise.
+/// The integrals along the arcs of a circle that are not covered, counterclockwise; r is measured from `origin`.
 fn integral(arcs: &CoveredArcs, cap: &Cap, frame: &Frame, origin: DVec3) -> Border {
-    let (mut sum, mut segments, mut angles) = (DVec3::ZERO, 0.0, 0.0);
-    let mut chords = DVec2::ZERO;
+    let mut border = Border::default();
+    let (mut chords, mut segments) = (DVec3::ZERO, 0.0);
     arcs.for_each_exposed(|ends| match ends {
         None => {
             segments += TAU;
-            angles += TAU;
+            border.angles += TAU;
         }
         Some(ends) => {
-            let [begin, end] = both(ends, |at| cap.point(frame, at, origin));
-            sum += begin.cross(end);
+            let ends = both(ends, |end| end.at);
+            let points = both(ends, |at| cap.point(frame, at, origin));
+            chords += points[0].cross(points[1]);
             let angle = angle(ends);
             segments += segment(angle);
-            angles += angle;
-            chords += ends[1] - ends[0];
+            border.angles += angle;
+            let [begin, end] = ends;
+            border.first += (begin - end).perp();
+            border.second.x += 0.5 * (end.x * end.y - begin.x * begin.y);
+            border.second.y += 0.5 * (end.y * end.y - begin.y * begin.y);
         }
     });
-    Border {
-        part: 0.5 * (sum + cap.axis * (cap.sine * cap.sine * segments)),
-        by_cosine: cap.axis * (cap.cosine * angles)
-            + (frame.x * chords.y - frame.y * chords.x) * cap.sine,
+    border.part = 0.5 * (chords + cap.axis * (cap.sine * cap.sine * segments));
+    border
+}
+
+impl Border {
+    /// What follows for the product of the integral over visible directions with a vector, while ends stay where they are.
+    ///
+    /// Where a cap grows by the angle δ at the angle φ of its circle, the integral loses ∫ r s δ dφ, with the sine s of its
+    /// angle. Its cosine falls by s δ, and if its axis moves by a vector v, then δ is the product of v with the unit vector
+    /// from the axis to the point of the circle.
+    fn slope(&self, cap: &Cap, normal: DVec3) -> CapSlope {
+        let frame = cap.frame();
+        let up = cap.cosine * normal.dot(cap.axis);
+        let DVec2 { x, y } = DVec2::new(normal.dot(frame.x), normal.dot(frame.y)) * cap.sine;
+        let along = x * self.first.x + y * self.first.y;
+        let half = 0.5 * self.angles;
+        let DVec2 { x: twice, y: mixed } = self.second;
+        let toward = self.first * up
+            + DVec2::new(
+                x * (half + twice) + y * mixed,
+                x * mixed + y * (half - twice),
+            );
+        CapSlope {
+            cap: *cap,
+            by_cosine: up * self.angles + along,
+            // The points of the circle move along the axis, and toward it.
+            twice_by_cosine: normal.dot(cap.axis) * self.angles
+                - along * (cap.cosine / (cap.sine * cap.sine)),
+            by_axis: (frame.x * toward.x + frame.y * toward.y) * -cap.sine,
+        }
     }
 }
 

@@ -156,7 +156,7 @@ fn sphere(random: &mut Random) -> Cap {
 #[test]
 fn nothing_hides_the_sky_above_a_plane() {
     let normal = DVec3::new(0.6, 0.0, 0.8);
-    let seen = hidden(&[Cap::below(normal)]).seen();
+    let seen = hidden(&[Cap::below(normal)]).seen(normal);
     assert!((sky_share(seen, normal) - 1.0).abs() < 1e-15);
 }
 
@@ -165,7 +165,7 @@ fn a_sphere_above_the_horizon_hides_its_projection() {
     let normal = DVec3::Y;
     for height in [1.5, 2.0, 10.0, 1e6] {
         let cap = Cap::of_sphere(DVec3::new(0.0, height, 0.0), 1.0);
-        let seen = hidden(&[Cap::below(normal), cap]).seen();
+        let seen = hidden(&[Cap::below(normal), cap]).seen(normal);
         let share = 1.0 - 1.0 / (height * height);
         assert!((sky_share(seen, normal) - share).abs() < 1e-15, "{height}");
     }
@@ -184,7 +184,7 @@ fn the_sky_between_spheres_agrees_with_meridians() {
             // The shading normal of a bump has a horizon of its own.
             caps.push(Cap::below((normal + 0.3 * random.direction()).normalize()));
         }
-        let seen = hidden(&caps).seen();
+        let seen = hidden(&caps).seen(normal);
         let truth = along_meridians(&caps, normal, PI);
         largest = largest.max((seen - truth).length());
     }
@@ -195,33 +195,68 @@ fn the_sky_between_spheres_agrees_with_meridians() {
 fn slopes_are_what_the_integral_changes_by() {
     const STEP: f64 = 1e-6;
     let mut random = Random(9);
-    let mut compared = 0;
+    let (mut compared, mut steep) = (0, 0);
     for _ in 0..100 {
-        let mut caps = vec![Cap::below(random.direction())];
+        let normal = random.direction();
+        let mut caps = vec![Cap::below(normal)];
         caps.extend((0..8).map(|_| sphere(&mut random)));
         for (number, cap) in caps.iter_mut().enumerate() {
             cap.sphere = number as u32;
         }
+        let toward = random.direction();
         let mut found = hidden(&caps);
-        found.seen();
-        for &(sphere, slope) in found.slopes() {
-            let cap = caps[sphere as usize];
+        found.seen(toward);
+        for slope in found.slopes() {
+            let cap = slope.cap;
             let angle = libm::acos(cap.cosine);
             if cap.cosine < 0.1 || angle < 0.1 {
                 continue;
             }
-            let mut changed = caps.clone();
-            let mut seen = |cosine: f64| {
-                changed[sphere as usize] = Cap::within(cap.axis, libm::acos(cosine));
-                hidden(&changed).seen()
+            let difference = |change: &dyn Fn(f64) -> Cap| {
+                let mut changed = caps.clone();
+                let mut seen = |step: f64| {
+                    changed[cap.sphere as usize] = change(step);
+                    hidden(&changed).seen(toward).dot(toward)
+                };
+                (seen(STEP) - seen(-STEP)) / (2.0 * STEP)
             };
-            let difference = seen(cap.cosine + STEP) - seen(cap.cosine - STEP);
-            let error = (difference / (2.0 * STEP) - slope).length();
-            assert!(error < 1e-5, "{error:e}");
+            let by_cosine =
+                difference(&|step| Cap::within(cap.axis, libm::acos(cap.cosine + step)));
+            let way = cap.axis.any_orthonormal_vector() + 0.3 * cap.axis.cross(DVec3::X);
+            let by_axis = difference(&|step| Cap {
+                axis: (cap.axis + way * step).normalize(),
+                ..cap
+            });
+            let slope_at = |step: f64| {
+                let mut changed = caps.clone();
+                let angle = libm::acos(cap.cosine + step);
+                changed[cap.sphere as usize] = Cap {
+                    sphere: cap.sphere,
+                    ..Cap::within(cap.axis, angle)
+                };
+                let mut found = hidden(&changed);
+                found.seen(toward);
+                let mut slopes = found.slopes().iter();
+                slopes
+                    .find(|slope| slope.cap.sphere == cap.sphere)
+                    .map_or(f64::NAN, |slope| slope.by_cosine)
+            };
+            let twice = (slope_at(STEP) - slope_at(-STEP)) / (2.0 * STEP);
+            // Unless circles cross under a small angle.
+            steep +=
+                usize::from((twice - slope.twice_by_cosine).abs() > 1e-3 * (1.0 + twice.abs()));
+            let errors = [
+                by_cosine - slope.by_cosine,
+                by_axis - slope.by_axis.dot(way),
+            ];
+            assert!(errors.iter().all(|error| error.abs() < 1e-5), "{errors:?}");
             compared += 1;
         }
     }
-    assert!(compared > 200, "{compared}");
+    assert!(
+        compared > 200 && steep < compared / 50,
+        "{compared} {steep}"
+    );
 }
 
 #[test]
@@ -274,8 +309,8 @@ fn a_sphere_that_is_there_twice_hides_as_much_as_one() {
     for _ in 0..200 {
         let normal = random.direction();
         let caps = [Cap::below(normal), sphere(&mut random), sphere(&mut random)];
-        let once = hidden(&caps).seen();
-        let twice = hidden(&[caps[0], caps[1], caps[2], caps[1], caps[2]]).seen();
+        let once = hidden(&caps).seen(normal);
+        let twice = hidden(&[caps[0], caps[1], caps[2], caps[1], caps[2]]).seen(normal);
         assert!((once - twice).length() < 1e-14);
         // Nearly the same, by some units in the last place.
         let beside = Cap {
@@ -286,7 +321,7 @@ fn a_sphere_that_is_there_twice_hides_as_much_as_one() {
             axis: beside.axis.normalize(),
             ..beside
         };
-        let nearly = hidden(&[caps[0], caps[1], caps[2], beside]).seen();
+        let nearly = hidden(&[caps[0], caps[1], caps[2], beside]).seen(normal);
         assert!(
             (once - nearly).length() < 1e-12,
             "{:e}",
