@@ -81,7 +81,6 @@ fn beside_hard_light(view: &View) {
 fn beside_rays(view: &View) {
     let world = under(None, Some(Sky::uniform(Color::ONE)));
     let renderer = Renderer::new(&world);
-    let exact = by_samples(&renderer, view, 1, None);
     let places = places(&world, view);
     let cases: [Case<'_, Vec<f64>>; 4] = [0, 16, 32, 64].map(|side| Case {
         name: match side {
@@ -98,17 +97,20 @@ fn beside_rays(view: &View) {
         }),
     });
     let (rounds, timed) = medians(1, 10, &cases);
-    let truth = light_of(&exact, &places);
+    let truth = &timed[0].result;
     let errors: Vec<f64> = timed
         .iter()
         .map(|timed| {
-            let squares = timed.result.iter().zip(&truth);
+            let squares = timed.result.iter().zip(truth);
             let sum: f64 = squares.map(|(one, other)| (one - other).powi(2)).sum();
             (sum / truth.len() as f64).sqrt()
         })
         .collect();
-    assert!(errors[0] == 0.0 && errors[1] > errors[2] && errors[2] > errors[3]);
-    assert!(errors[3] < 5e-3, "{errors:?}");
+    // More rays come closer.
+    assert!(
+        errors[1] > errors[2] && errors[2] > errors[3] && errors[3] < 5e-3,
+        "{errors:?}"
+    );
     println!("\nthe light of a sky at points, medians of {rounds}");
     for ((case, timed), error) in cases.iter().zip(&timed).zip(&errors) {
         let time = 1e6 * timed.median / places.len() as f64;

@@ -10,7 +10,7 @@ use super::square::{Node, Square};
 /// Parts that threads may use at a time.
 const SHARDS: usize = 64;
 
-/// What a part knows at most: it forgets all of it then. That is some 400 MiB of all parts. Not tuned.
+/// What a part knows at most: it forgets all of it then. That is some 700 MiB of all parts. Not tuned.
 const MOST: usize = 1 << 14;
 
 /// What is known of the light of a world's sky. Each node and each patch is what its place says, whoever makes it, and when.

@@ -52,9 +52,9 @@ impl Default for NodeLight {
 }
 
 impl NodeLight {
-    /// Adds how light at a node changes with the cosine of a sphere, and with the normal by the axis of its cap. The node lies at this place
-    /// of a sphere with this radius. If there are too many slopes, the one of the farthest sphere becomes a part of how light
-    /// changes with the normal.
+    /// Adds how light at a node changes with the cosine of a sphere, and with the normal by the axis of its cap. The node lies at
+    /// this place of a sphere with this radius. If there are too many slopes, the one of the farthest sphere becomes a part of
+    /// how light changes with the normal.
     pub(crate) fn add(
         &mut self,
         slope: Slope,

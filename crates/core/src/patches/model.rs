@@ -39,7 +39,7 @@ struct Smooth {
 struct Root {
     sphere: u32,
     linear: [Shares; 4],
-    square: [Shares; 4],
+    quadratic: [Shares; 4],
 }
 
 /// What the ends 0 and 1 of an interval weigh at a place: their values and their slopes of a cubic polynomial, and their values
@@ -92,12 +92,12 @@ fn between(corners: &[Shares; 4], at: DVec2) -> Smooth {
 impl Root {
     /// Its light at a place where the cosine is known, and how that changes with the place while the cosine stays what it is.
     fn at(&self, at: DVec2, cosine: f64) -> Smooth {
-        let (linear, square) = (between(&self.linear, at), between(&self.square, at));
-        let of = |linear: Shares, square: Shares| (linear + square * cosine) * cosine;
+        let (linear, quadratic) = (between(&self.linear, at), between(&self.quadratic, at));
+        let of = |linear: Shares, quadratic: Shares| (linear + quadratic * cosine) * cosine;
         Smooth {
-            value: of(linear.value, square.value),
-            along: of(linear.along, square.along),
-            across: of(linear.across, square.across),
+            value: of(linear.value, quadratic.value),
+            along: of(linear.along, quadratic.along),
+            across: of(linear.across, quadratic.across),
         }
     }
 }
@@ -138,7 +138,7 @@ impl Model {
         let mut root = Root {
             sphere,
             linear: [Shares::ZERO; 4],
-            square: [Shares::ZERO; 4],
+            quadratic: [Shares::ZERO; 4],
         };
         let mut cosines = [0.0; 4];
         let mut slopes = [FAR; 4];
@@ -149,7 +149,7 @@ impl Model {
                 return;
             };
             root.linear[number] = slope.by_cosine - slope.twice_by_cosine * cosine;
-            root.square[number] = slope.twice_by_cosine * 0.5;
+            root.quadratic[number] = slope.twice_by_cosine * 0.5;
             (cosines[number], slopes[number]) = (cosine, slope);
         }
         self.roots.push(root);

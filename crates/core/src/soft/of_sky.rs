@@ -143,6 +143,7 @@ impl OfSky<'_, '_> {
         }
         let patches = self.patches;
         let patch = patches.patch(square, || {
+            // Nodes of this square need that list, too.
             let around = square.parent().filter(|around| around.level() >= GATHERED);
             let list = self.list(&around.unwrap_or(*square), &occluders);
             let missed = missed(&list, square, &occluders);
