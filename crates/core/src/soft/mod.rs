@@ -16,6 +16,7 @@
 //! | `doubt.rs` | changes of light that points of a cell may miss |
 //! | `scene.rs`, `picture.rs` | the averages over pixels, by samples or to a tolerance |
 
+mod across;
 mod arcs;
 mod bodies;
 mod candidate;

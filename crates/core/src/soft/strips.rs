@@ -1,5 +1,6 @@
 //! The average over a cell from lines across it, on which the places are known where light begins to be hidden.
 
+use super::across::{RULE, doubt_of_rule};
 use super::candidate::Candidate;
 use super::curve::{Curve, Way};
 use super::edges::Break;
@@ -10,31 +11,6 @@ use super::seam::Seam;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::numeric::pair::both;
-
-/// A line of a strip: its place from 0 to 1, and its weight in a rule and in a coarser one.
-#[derive(Clone, Copy, Debug)]
-struct RuleNode {
-    place: f64,
-    fine: f64,
-    coarse: f64,
-}
-
-const fn node(place: f64, fine: f64, coarse: f64) -> RuleNode {
-    RuleNode {
-        place,
-        fine,
-        coarse,
-    }
-}
-
-/// Kronrod's rule with 5 nodes, which contains Gauss's with 2.
-const RULE: [RuleNode; 5] = [
-    node(0.037_089_950_113_724_27, 0.098_989_898_989_898_99, 0.0),
-    node(0.211_324_865_405_187_1, 0.245_454_545_454_545_45, 0.5),
-    node(0.5, 0.311_111_111_111_111_1, 0.0),
-    node(0.788_675_134_594_812_9, 0.245_454_545_454_545_45, 0.5),
-    node(0.962_910_049_886_275_7, 0.098_989_898_989_898_99, 0.0),
-];
 
 /// The light along a line.
 #[derive(Clone, Copy, Debug, Default)]
@@ -118,9 +94,6 @@ const SPACING: f64 = 0.25;
 /// The light of a curve costs about as much as so many points, and what begins and ends on it.
 const POINTS_OF_CURVE: u64 = 3;
 const POINTS_OF_PATTERN: u64 = 1;
-
-/// The claim of a rule, in parts of its difference from the coarser one. Not tuned.
-const OF_RULES: f64 = 1.0;
 
 /// The part of a cell's error that the errors along its lines may have. Not tuned.
 const OF_LINES: f64 = 0.25;
@@ -301,13 +274,13 @@ impl Strips {
         let [low, high] = between.ends;
         let inside = INSIDE * (high - low);
         let mut before: Option<(Line, f64)> = None;
-        let mut rough = Color::ZERO;
-        for node in &RULE {
+        let mut values = [Color::ZERO; RULE.len()];
+        for (node, across) in RULE.iter().zip(&mut values) {
             let (v, speed) = between.at(node.place);
             let line = self.line(light, scene, v);
-            strip.value += line.sum * (node.fine * speed);
-            rough += line.sum * (node.coarse * speed);
-            strip.error += line.error * (node.fine * speed);
+            *across = line.sum * speed;
+            strip.value += *across * node.weight;
+            strip.error += line.error * (node.weight * speed);
             let below = before.or_else(|| self.unlike(light, scene, low + inside, &line));
             strip.compare(below, Some((line, v)), scene.brightest);
             before = Some((line, v));
@@ -316,7 +289,7 @@ impl Strips {
             let above = self.unlike(light, scene, high - inside, &last);
             strip.compare(before, above, scene.brightest);
         }
-        strip.error += (strip.value - rough).abs().max_element() * OF_RULES;
+        strip.error += doubt_of_rule(&values).max_element();
         strip
     }
 
