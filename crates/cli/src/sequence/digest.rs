@@ -7,7 +7,7 @@ use blake3::{Hash, Hasher};
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{
     Camera, Exposure, Grain, Highlight, Lens, Light, LightFalloff, Material, Method, Outline,
-    OutlineWidth, Pose, Roughness, Settings, View, World, parallel,
+    OutlineWidth, Pose, Roughness, Settings, Sky, View, World, parallel,
 };
 
 use crate::formats::center_channels::{CenterChannels, name_of};
@@ -110,6 +110,9 @@ impl Digests {
         if let Some(lights) = exposure.lights() {
             lights.iter().for_each(|light| feed.light(light));
         }
+        if let Some(sky) = exposure.sky() {
+            feed.sky(&sky);
+        }
         feed.0.finalize()
     }
 }
@@ -152,10 +155,7 @@ impl Feed {
         self.vector(world.background);
         // Worlds without a sky have the digests that they had before there were any.
         if let Some(sky) = world.sky {
-            self.0.update(b"sky");
-            for vector in [sky.above(), sky.below(), sky.up()] {
-                self.vector(vector);
-            }
+            self.sky(&sky);
         }
         self.integer(world.shadows);
         self.count(world.lights.len());
@@ -166,6 +166,13 @@ impl Feed {
         self.count(world.spheres().len());
         for hash in spheres {
             self.0.update(hash.as_bytes());
+        }
+    }
+
+    fn sky(&mut self, sky: &Sky) {
+        self.0.update(b"sky");
+        for vector in [sky.above(), sky.below(), sky.up()] {
+            self.vector(vector);
         }
     }
 

@@ -105,7 +105,8 @@ impl<'scene> Exact<'scene> {
         alpha: bool,
     ) -> Self {
         let count = index.visibility.lights().len().div_ceil(MOST_LIGHTS).max(1);
-        let LightUnit { contrast, unit } = LightUnit::new(world, index.visibility.all_lights());
+        let LightUnit { contrast, unit } =
+            LightUnit::new(world, index.visibility.all_lights(), index.visibility.sky());
         let contrast = if alpha { contrast.max(1.0) } else { contrast };
         let channels = Channels::of(world, alpha);
         let of_crowds = UnitsOfTile::new(world, view, index);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::camera::Camera;
 use super::light::Light;
+use super::sky::Sky;
 use super::view::View;
 
 /// The place of a camera at a moment.
@@ -85,7 +86,7 @@ pub trait Motion: Debug + Send + Sync {
     fn is_smooth(&self) -> bool;
 }
 
-/// A view, the motion of its camera while the shutter is open, and its lights if they are not the world's.
+/// A view, the motion of its camera while the shutter is open, and its lights and its sky if they are not the world's.
 ///
 /// # Example
 /// ```
@@ -111,6 +112,7 @@ pub struct Exposure<'motion> {
     view: View,
     motion: Option<Arc<dyn Motion + 'motion>>,
     lights: Option<Arc<[Light]>>,
+    sky: Option<Sky>,
 }
 
 impl<'motion> Exposure<'motion> {
@@ -120,6 +122,7 @@ impl<'motion> Exposure<'motion> {
             view,
             motion: Some(Arc::new(motion)),
             lights: None,
+            sky: None,
         }
     }
 
@@ -129,6 +132,19 @@ impl<'motion> Exposure<'motion> {
             lights: Some(lights.into()),
             ..self
         }
+    }
+
+    /// The same exposure under this sky in place of the world's. A world without a sky stays without one.
+    pub fn with_sky(self, sky: Sky) -> Self {
+        Self {
+            sky: Some(sky),
+            ..self
+        }
+    }
+
+    /// The sky that takes the place of the world's, if there is one.
+    pub fn sky(&self) -> Option<Sky> {
+        self.sky
     }
 
     /// The lights that take the place of the world's, if there are any.
@@ -198,6 +214,7 @@ impl From<&View> for Exposure<'_> {
             view: *view,
             motion: None,
             lights: None,
+            sky: None,
         }
     }
 }

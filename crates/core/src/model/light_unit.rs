@@ -5,6 +5,7 @@
 
 use super::color::Color;
 use super::light::Light;
+use super::sky::Sky;
 use super::world::World;
 
 /// The contrast of a world, and its unit.
@@ -19,14 +20,14 @@ pub(crate) struct LightUnit {
 }
 
 impl LightUnit {
-    /// The contrast and the unit of a world under some lights.
-    pub(crate) fn new(world: &World, lights: &[Light]) -> Self {
+    /// The contrast and the unit of a world under some lights and a sky.
+    pub(crate) fn new(world: &World, lights: &[Light], sky: Option<Sky>) -> Self {
         let lights = lights.iter().map(|light| light.intensity().max_element());
         let outlines = world.outline_colors().map(Color::max_element);
         let contrast = world.ambient.max_element()
             + world.background.max_element()
             + lights.sum::<f64>()
-            + world.sky.map_or(0.0, |sky| sky.brightest().max_element())
+            + sky.map_or(0.0, |sky| sky.brightest().max_element())
             + outlines.fold(0.0, f64::max);
         let unit = power_of_two_from(contrast);
         Self {

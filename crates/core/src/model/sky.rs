@@ -61,6 +61,15 @@ impl Sky {
         self.up
     }
 
+    /// True if the light of both reaches points by the same parts: by one of all of it, or by those of two halves.
+    pub(crate) fn has_parts_of(&self, other: &Self) -> bool {
+        match (self.above == self.below, other.above == other.below) {
+            (true, true) => true,
+            (false, false) => self.up == other.up,
+            _ => false,
+        }
+    }
+
     /// The larger radiance in each channel.
     pub(crate) fn brightest(&self) -> Color {
         self.above.max(self.below)

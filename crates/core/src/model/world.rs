@@ -349,11 +349,15 @@ impl World {
     }
 
     /// Bounds of the light, in each channel, of whatever may be seen before this background: in the dark, and where all
-    /// of some lights and their highlights are at their highest.
-    pub(crate) fn range_of_light(&self, lights: &[Light], background: Color) -> [Color; 2] {
+    /// of some lights, their highlights and a sky are at their highest.
+    pub(crate) fn range_of_light(
+        &self,
+        (lights, sky): (&[Light], Option<Sky>),
+        background: Color,
+    ) -> [Color; 2] {
         let [mut dark, mut bright] = [background; 2];
         let lights = lights.iter().map(|light| self.brightest(light));
-        let sky = self.sky.map_or(Color::ZERO, |sky| sky.brightest());
+        let sky = sky.map_or(Color::ZERO, |sky| sky.brightest());
         let lights = lights.fold(sky, |sum, light| sum + light);
         let highlights = self.materials.iter().filter_map(|one| one.highlight);
         let strength = highlights.fold(0.0_f64, |most, one| most.max(one.strength));

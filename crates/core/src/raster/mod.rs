@@ -98,9 +98,10 @@ impl<'scene> Raster<'scene> {
         if !is_known {
             return None;
         }
-        let LightUnit { unit, .. } = LightUnit::new(world, index.visibility.all_lights());
+        let sky = index.visibility.sky();
+        let LightUnit { unit, .. } = LightUnit::new(world, index.visibility.all_lights(), sky);
         let background = if alpha { Color::ZERO } else { world.background };
-        let [dark, bright] = world.range_of_light(lights, background);
+        let [dark, bright] = world.range_of_light((lights, sky), background);
         let contrast = (bright - dark)
             .max_element()
             .max(if alpha { unit } else { 0.0 });

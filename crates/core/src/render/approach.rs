@@ -10,6 +10,7 @@ use crate::model::color::Color;
 use crate::model::exposure::Exposure;
 use crate::model::light::Light;
 use crate::model::light_unit::LightUnit;
+use crate::model::sky::Sky;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
@@ -71,10 +72,10 @@ const PREVIEWS: [Preview; 4] = [
 const OF_SPACING: f64 = 1.2;
 
 impl Approach {
-    /// The one that `settings` ask for in a world under some lights.
+    /// The one that `settings` ask for in a world under some lights and a sky.
     pub(super) fn of(
         world: &World,
-        lights: &[Light],
+        (lights, sky): (&[Light], Option<Sky>),
         exposure: &Exposure<'_>,
         settings: &Settings,
     ) -> Self {
@@ -87,7 +88,7 @@ impl Approach {
             }
             Method::Tolerance(tolerance) => tolerance,
         };
-        let contrast = contrast(world, lights, settings.alpha);
+        let contrast = contrast(world, (lights, sky), settings.alpha);
         let meets = |preview: &&Preview| {
             preview.from * contrast <= tolerance && preview.is_for(world, exposure)
         };
@@ -146,13 +147,13 @@ fn has_smaller(world: &World, view: &View, radius: f64) -> bool {
 }
 
 /// The largest difference between what pixels may show, in any channel, and in alpha, which has the unit of light.
-fn contrast(world: &World, lights: &[Light], alpha: bool) -> f64 {
+fn contrast(world: &World, (lights, sky): (&[Light], Option<Sky>), alpha: bool) -> f64 {
     let (background, of_alpha) = if alpha {
-        (Color::ZERO, LightUnit::new(world, lights).unit)
+        (Color::ZERO, LightUnit::new(world, lights, sky).unit)
     } else {
         (world.background, 0.0)
     };
-    let [dark, bright] = world.range_of_light(lights, background);
+    let [dark, bright] = world.range_of_light((lights, sky), background);
     (bright - dark).max_element().max(of_alpha)
 }
 

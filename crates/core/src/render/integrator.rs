@@ -68,7 +68,8 @@ impl<'scene> Integrator<'scene> {
         settings: &Settings,
         indices: &mut Indices<'scene>,
     ) -> Self {
-        let method = Approach::of(world, visibility.all_lights(), exposure, settings).method;
+        let light = (visibility.all_lights(), visibility.sky());
+        let method = Approach::of(world, light, exposure, settings).method;
         let alpha = settings.alpha;
         let view = exposure.view();
         if let Some(motion) = exposure.motion() {

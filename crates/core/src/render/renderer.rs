@@ -1,5 +1,6 @@
 //! A picture in one piece.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -174,13 +175,14 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
         indices: &mut Indices<'a>,
     ) -> Integrator<'a> {
-        match self.lights_of(exposure) {
-            None => Integrator::new(&self.world, &self.visibility, exposure, settings, indices),
-            Some(lights) => {
-                let visibility = self.visibility.with_lights(&self.world, lights);
-                Integrator::new(&self.world, &visibility, exposure, settings, indices)
-            }
+        let mut visibility = Cow::Borrowed(&self.visibility);
+        if let Some(lights) = self.lights_of(exposure) {
+            visibility = Cow::Owned(visibility.with_lights(&self.world, lights));
         }
+        if let Some(sky) = exposure.sky() {
+            visibility = Cow::Owned(visibility.with_sky(sky));
+        }
+        Integrator::new(&self.world, &visibility, exposure, settings, indices)
     }
 
     /// The lights of an exposure that take the place of the world's: those of the part of the light that this renders.
@@ -209,11 +211,12 @@ impl<'world> Renderer<'world> {
         let view = exposure.view();
         let of_frame = self.lights_of(exposure);
         let lights = of_frame.as_deref().unwrap_or(self.visibility.all_lights());
+        let sky = self.world.sky.map(|own| exposure.sky().unwrap_or(own));
         Layout {
             size: (view.width, view.height),
             channels: Channels::of(&self.world, settings.alpha),
             alpha: settings.alpha,
-            uniform: Approach::of(&self.world, lights, exposure, settings).uniform,
+            uniform: Approach::of(&self.world, (lights, sky), exposure, settings).uniform,
         }
     }
 }

@@ -73,7 +73,8 @@ impl<'scene> Supersampling<'scene> {
         samples: NonZeroU32,
         alpha: bool,
     ) -> Self {
-        let LightUnit { unit, .. } = LightUnit::new(world, index.visibility.all_lights());
+        let LightUnit { unit, .. } =
+            LightUnit::new(world, index.visibility.all_lights(), index.visibility.sky());
         Self {
             index: index.clone(),
             samples,

@@ -12,6 +12,7 @@ use super::occluders::Occluders;
 use super::point_occluders::PointOccluders;
 use crate::model::light::Light;
 use crate::model::ray::Ray;
+use crate::model::sky::Sky;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::{LightPart, World};
@@ -36,6 +37,8 @@ pub(crate) struct Visibility<'world> {
     all_lights: Arc<[Light]>,
     /// Those without a disc, whose shadows have edges.
     lights: Arc<[Light]>,
+    /// The sky, which may be another than the world's.
+    sky: Option<Sky>,
     /// One for each light; none in a world without shadows.
     occluders: Arc<[Occlusion<'world>]>,
     /// True where squares of all lengths are far from over- and underflow.
@@ -124,6 +127,7 @@ impl<'world> Visibility<'world> {
             hierarchy: is_asked.then(|| Arc::new(Hierarchy::new(spheres))),
             lights: Arc::new([]),
             all_lights: Arc::new([]),
+            sky: world.sky,
             occluders: Arc::new([]),
             is_moderate: spheres.is_empty() || extent.is_moderate(),
             extent,
@@ -176,7 +180,7 @@ impl<'world> Visibility<'world> {
         &self.patches
     }
 
-    /// The same world under other lights, as many as it has.
+    /// The same world, or one of the same spheres, under other lights, as many as it has.
     pub(crate) fn with_lights(&self, world: &World, lights: Arc<[Light]>) -> Self {
         let hard = lights.iter().filter(|light| light.sun().is_none());
         let hard: Arc<[Light]> = hard.copied().collect();
@@ -204,6 +208,28 @@ impl<'world> Visibility<'world> {
             occluders: casting.iter().filter_map(of_light).collect(),
             lights: hard,
             all_lights: lights,
+            sky: self.sky.filter(|_| world.sky.is_some()),
+            outer: outer.map(Arc::new),
+            ..self.clone()
+        }
+    }
+
+    /// The same world under another sky, if it has one.
+    pub(crate) fn with_sky(&self, sky: Sky) -> Self {
+        let Some(before) = self.sky else {
+            return self.clone();
+        };
+        let patches = match before.has_parts_of(&sky) {
+            true => Arc::clone(&self.patches),
+            false => Arc::default(),
+        };
+        let outer = self.outer.as_deref().map(|outer| OuterSpheres {
+            visibility: outer.visibility.with_sky(sky),
+            ..outer.clone()
+        });
+        Self {
+            sky: Some(sky),
+            patches,
             outer: outer.map(Arc::new),
             ..self.clone()
         }
@@ -231,6 +257,7 @@ impl<'world> Visibility<'world> {
         Self {
             lights: index.map(|index| self.lights[index]).into_iter().collect(),
             all_lights: light.into_iter().collect(),
+            sky: self.sky.filter(|_| part == LightPart::Sky),
             occluders: occluders.cloned().into_iter().collect(),
             outer: outer.map(Arc::new),
             ..self.clone()
@@ -245,6 +272,11 @@ impl<'world> Visibility<'world> {
     /// All lights.
     pub(crate) fn all_lights(&self) -> &[Light] {
         &self.all_lights
+    }
+
+    /// The sky.
+    pub(crate) fn sky(&self) -> Option<Sky> {
+        self.sky
     }
 
     /// All spheres in a hierarchy, if any hide light from others.

@@ -37,7 +37,7 @@ pub(crate) fn doubt_of_rule(values: &[Color; 5]) -> Color {
     let (outer, inner) = (fifth + first, fourth + second);
     let second_order =
         ((outer * 8.0 - inner * 3.0 - third * 10.0) * 0.031_621_163_318_178_85).abs();
-    let difference = (outer * 0.098_989_898_989_898_99 - inner * 0.254_545_454_545_454_55
+    let difference = (outer * 0.098_989_898_989_898_99 - inner * 0.254_545_454_545_454_5
         + third * 0.311_111_111_111_111_1)
         .abs();
     let expected = |[first, second, third]: [f64; 3]| {

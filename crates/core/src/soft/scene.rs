@@ -49,7 +49,7 @@ impl<'scene> Soft<'scene> {
             .filter_map(|light| light.sun());
         let lights = suns
             .map(SoftLight::sun)
-            .chain(world.sky.map(SoftLight::Sky));
+            .chain(index.visibility.sky().map(SoftLight::Sky));
         let lights: Vec<SoftLight> = lights.collect();
         (!lights.is_empty()).then(|| Self {
             world,

@@ -4,6 +4,7 @@ use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterato
 
 use crate::model::light::Light;
 use crate::model::light_unit::LightUnit;
+use crate::model::sky::Sky;
 use crate::model::world::World;
 
 /// The differences of light, and of coverage, that something may make in any channel.
@@ -18,14 +19,14 @@ pub(super) struct Contrast {
 }
 
 impl Contrast {
-    pub(super) fn new(world: &World, lights: &[Light], alpha: bool) -> Self {
+    pub(super) fn new(world: &World, lights: &[Light], sky: Option<Sky>, alpha: bool) -> Self {
         let of_alpha = match alpha {
-            true => LightUnit::new(world, lights).unit,
+            true => LightUnit::new(world, lights, sky).unit,
             false => 0.0,
         };
         let lights = lights.iter();
         let lights: f64 = lights.map(|light| brightest(world, light)).sum();
-        let sky = world.sky.map_or(0.0, |sky| sky.brightest().max_element());
+        let sky = sky.map_or(0.0, |sky| sky.brightest().max_element());
         let white = world.ambient.max_element() + sky + lights;
         let spheres = (0..world.spheres().len()).into_par_iter();
         let of_spheres = spheres.map(|sphere| {

@@ -48,7 +48,12 @@ impl<'scene> ExactOverTime<'scene> {
         tolerance: f64,
         alpha: bool,
     ) -> Self {
-        let contrast = Contrast::new(world, instants.visibility.all_lights(), alpha);
+        let contrast = Contrast::new(
+            world,
+            instants.visibility.all_lights(),
+            instants.visibility.sky(),
+            alpha,
+        );
         let (view, motion) = (&instants.view, instants.motion.as_ref());
         let levels = PanelLevels::new(world, view, motion, tolerance / contrast.ordinary);
         Self {

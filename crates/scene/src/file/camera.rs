@@ -6,6 +6,7 @@ use glam::DVec3;
 use serde::Deserialize;
 
 use super::Up;
+use super::sky::Sky;
 use crate::text::{Placed, present};
 use crate::values::{
     Axis, Color, Degrees, Diameter, Fill, Frame, FrameCount, FrameRange, FramesPerSecond,
@@ -122,7 +123,7 @@ pub(crate) enum Turned {
     Lights,
 }
 
-/// The values of some channels at a frame: of the camera, or of a light.
+/// The values of some channels at a frame: of the camera and the sky, or of a light.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Key {
@@ -147,6 +148,8 @@ pub(crate) struct Key {
     pub(crate) elevation: Option<Placed<Degrees>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) zoom: Option<Placed<Zoom>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) sky: Option<Placed<Sky>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) toward: Option<Placed<Point>>,
     #[serde(default, deserialize_with = "present")]
@@ -252,7 +255,15 @@ impl Camera {
         match self {
             Self::Free { .. } => &["position", "pan", "tilt", "roll", "zoom"],
             Self::LookAt { .. } => &["position", "target", "roll", "zoom"],
-            Self::Orbit { .. } => &["target", "radius", "azimuth", "elevation", "roll", "zoom"],
+            Self::Orbit { .. } => &[
+                "target",
+                "radius",
+                "azimuth",
+                "elevation",
+                "roll",
+                "zoom",
+                "sky",
+            ],
             Self::Frame { .. } => &["azimuth", "elevation", "roll", "zoom"],
             Self::Pose { .. } => &["zoom"],
         }
@@ -269,9 +280,12 @@ impl Animation {
     }
 }
 
+/// The name of a channel, and the place of its value where a key names it.
+pub(crate) type Channel = (&'static str, Option<Range<usize>>);
+
 impl Key {
     /// Every channel with the place of its value, where the key names it.
-    pub(crate) fn channels(&self) -> [(&'static str, Option<Range<usize>>); 14] {
+    pub(crate) fn channels(&self) -> [Channel; 15] {
         fn place<T>(channel: &Option<Placed<T>>) -> Option<Range<usize>> {
             channel.as_ref().map(|value| value.place.clone())
         }
@@ -285,6 +299,7 @@ impl Key {
             ("azimuth", place(&self.azimuth)),
             ("elevation", place(&self.elevation)),
             ("zoom", place(&self.zoom)),
+            ("sky", place(&self.sky)),
             ("toward", place(&self.toward)),
             ("direction", place(&self.direction)),
             ("mu", place(&self.mu)),

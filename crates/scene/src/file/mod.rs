@@ -13,7 +13,7 @@ mod table;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-pub(crate) use self::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
+pub(crate) use self::camera::{Animation, Axes, Camera, Channel, Ease, FrameOver, Key, Turned};
 pub(crate) use self::cloud::{
     Cloud, ColorScale, Columns, End, OTHERS_COLOR, Others, RadiusLaw, TakenFrames, Up,
 };

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer};
 
-use crate::text::{Names, Placed, Read, Slice, read_structure, token};
+use crate::text::{Names, Placed, Read, Slice, present, read_structure, token};
 use crate::values::{Color, Point};
 
 /// The light of the sky.
@@ -14,14 +14,14 @@ pub(crate) enum Sky {
     Halves(Halves),
 }
 
-/// The two halves of a sky; y points up by default.
+/// The two halves of a sky. In a scene y points up by default; in a key, where it pointed before.
 #[derive(Debug, Deserialize)]
 #[serde(rename = "Sky", deny_unknown_fields)]
 pub(crate) struct Halves {
     pub(crate) above: Placed<Color>,
     pub(crate) below: Placed<Color>,
-    #[serde(default = "y")]
-    pub(crate) up: Placed<Point>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) up: Option<Placed<Point>>,
 }
 
 const NAMES: Names = Names {
@@ -56,8 +56,4 @@ fn has_fields(text: &str) -> bool {
     let first = &inside[start..token::token_end(inside, start)];
     let next = token::skip_trivia(inside, start + first.len());
     first == ")" || inside[next..].starts_with(':')
-}
-
-fn y() -> Placed<Point> {
-    Point(glam::DVec3::Y).into()
 }

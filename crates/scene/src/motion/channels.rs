@@ -190,6 +190,12 @@ impl PointCurve {
         Self(point.to_array().map(Curve::constant))
     }
 
+    /// Returns whether its coordinates, which are a color's, differ at some time.
+    pub(super) fn may_have_color(&self) -> bool {
+        let [red, green, blue] = &self.0;
+        red != green || red != blue
+    }
+
     pub(super) fn at(&self, time: f64) -> DVec3 {
         DVec3::from_array(self.0.each_ref().map(|curve| curve.at(time)))
     }

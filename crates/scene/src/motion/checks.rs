@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::file::{Animation, Camera, File, Key, Light, Turned};
+use crate::file::{Animation, Camera, Channel, File, Key, Light, Turned};
 use crate::text::{Placed, did_you_mean, either, list, quoted, refuse, show, token};
 use crate::values::LightName;
 
@@ -17,7 +17,10 @@ pub(super) fn check(file: &File, text: &str) {
     };
     match (&animation.value, camera) {
         (Some(Animation::Keyframes { keys, .. }), _) => {
-            check_keys(keys, camera, &file.lights, text)
+            check_keys(keys, camera, &file.lights, text);
+            if file.sky.is_none() {
+                refuse_keys_of_sky(keys, text);
+            }
         }
         (Some(Animation::Turntable { what, .. }), Some(camera))
             if what.get() == Some(Turned::Camera) =>
@@ -77,7 +80,25 @@ fn check_keys(keys: &[Placed<Key>], camera: Option<&Camera>, lights: &[Placed<Li
             check_light_key(start, key, name, lights, text);
         } else if let Some(camera) = camera {
             let owner = format!("`{}` camera", camera.kind());
-            check_channels(start, key, &owner, camera.channels(), text);
+            // The sky is no part of the camera, but in its keys.
+            let named = key
+                .channels()
+                .into_iter()
+                .filter(|(name, _)| *name != "sky");
+            check_channels((start, named), &owner, camera.channels(), text);
+        }
+    }
+}
+
+/// Refuses keys of a sky that the scene does not have.
+fn refuse_keys_of_sky(keys: &[Placed<Key>], text: &str) {
+    for placed in keys {
+        let key = placed.value.as_ref().filter(|key| key.light.is_none());
+        if let Some(sky) = key.and_then(|key| key.sky.as_ref()) {
+            let place = token::field_name(text, placed.place.start, sky.place.start);
+            let message =
+                "expected a `sky` of the scene, which keys may change; the scene has none";
+            refuse::<()>(place, message);
         }
     }
 }
@@ -105,19 +126,29 @@ fn check_light_key(
             _ => String::new(),
         };
         let found = quoted(of_key);
-        let message = format!("expected the name of a light{known}, found {found}{meant}");
+        let of_sky = match of_key == "sky" {
+            true => "; a key without `light` changes the sky: `sky: 0.5`",
+            false => "",
+        };
+        let message = format!("expected the name of a light{known}, found {found}{meant}{of_sky}");
         return refuse(name.place.clone(), message).unwrap_or(());
     };
     let owner = format!("light {}", quoted(of_key));
-    check_channels(key_start, key, &owner, light.channels(), text);
+    check_channels((key_start, key.channels()), &owner, light.channels(), text);
 }
 
 /// Names of lights that a message lists.
 const LONGEST_LIST: usize = 6;
 
-fn check_channels(key_start: usize, key: &Key, owner: &str, channels: &[&str], text: &str) {
+/// Refuses what a key that starts somewhere names and its owner lacks.
+fn check_channels(
+    (key_start, named): (usize, impl IntoIterator<Item = Channel>),
+    owner: &str,
+    channels: &[&str],
+    text: &str,
+) {
     let known = || channels.iter().copied();
-    for (name, value) in key.channels() {
+    for (name, value) in named {
         if let Some(value) = value
             && !channels.contains(&name)
         {
@@ -149,11 +180,12 @@ pub(super) fn check_lights(file: &File) {
     let (shutter, reason) = match animation.and_then(|animation| animation.value.as_ref()) {
         Some(Animation::Keyframes { shutter, keys, .. }) => {
             let mut keys = keys.iter().filter_map(|key| key.value.as_ref());
-            (
-                shutter,
-                keys.any(|key| key.light.is_some())
-                    .then_some("keys of lights"),
-            )
+            let reason = keys.find_map(|key| match (&key.light, &key.sky) {
+                (Some(_), _) => Some("keys of lights"),
+                (None, Some(_)) => Some("keys of the sky"),
+                (None, None) => None,
+            });
+            (shutter, reason)
         }
         Some(Animation::Turntable { shutter, what, .. }) => {
             let turns_lights = what.get() == Some(Turned::Lights);

@@ -24,11 +24,11 @@
 pub struct FrameError {
     /// The number of the frame.
     pub frame: i32,
-    /// The fault of the camera, or of a light, in it.
+    /// The fault of the camera, of a light, or of the sky in it.
     pub fault: FrameFault,
 }
 
-/// The fault of a camera or a light in a frame.
+/// The fault of a camera, a light or a sky in a frame.
 ///
 /// # Example
 /// ```
@@ -61,4 +61,7 @@ pub enum FrameFault {
     /// The light with this number, from 0 on, is beyond the range of numbers.
     #[error("light {} is infinitely far away", .0 + 1)]
     LightTooFar(usize),
+    /// The direction up of the sky has come to the zero vector between keys.
+    #[error("the sky has no direction `up`")]
+    SkyNowhere,
 }

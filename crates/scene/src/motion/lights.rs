@@ -15,7 +15,7 @@ use super::error::{FrameError, FrameFault};
 use super::turntable::Turntable;
 use crate::file::{self, Animation, File, Key, Turned};
 use crate::text::{Placed, optional, refuse};
-use crate::values::{Mu, Point};
+use crate::values::Mu;
 
 /// The lights of a scene over time.
 #[derive(Clone, Debug)]
@@ -102,10 +102,7 @@ impl Lights {
     /// Returns whether some light has a color in some frame.
     pub(crate) fn may_have_color(&self) -> bool {
         let mut lights = self.lights.iter();
-        lights.any(|light| {
-            let [red, green, blue] = &light.intensity.0;
-            red != green || red != blue
-        })
+        lights.any(|light| light.intensity.may_have_color())
     }
 
     /// The number of the frame by which noise is drawn, the same in every turn of a turntable.
@@ -270,7 +267,7 @@ fn kind(light: &file::Light, keys: &Keys<'_>) -> Option<(Kind, PointCurve)> {
         file::Light::Directional {
             toward, diameter, ..
         } => {
-            let direction = direction(toward)?;
+            let direction = toward.direction()?;
             let place = keys.vectors(direction, |key| Some(key.toward.as_ref()?.get()?.0));
             let diameter = keys.numbers(diameter.get()?.0, |key| &key.diameter);
             Some((Kind::Directional { diameter }, place))
@@ -316,19 +313,9 @@ fn emission(light: &file::Light, keys: &Keys<'_>) -> Option<Option<Emission>> {
         Some(mu) => mu.get()?,
         None => Mu::default(),
     };
-    let direction = direction(facing)?;
+    let direction = facing.direction()?;
     Some(Some(Emission {
         direction: keys.vectors(direction, |key| Some(key.direction.as_ref()?.get()?.0)),
         mu: keys.numbers(mu.0, |key| &key.mu),
     }))
-}
-
-/// A vector that has a direction; `None` where a fault was reported.
-fn direction(vector: &Placed<Point>) -> Option<DVec3> {
-    let direction = vector.get()?.0;
-    if direction == DVec3::ZERO {
-        let message = "expected a direction `(x, y, z)`, found the zero vector";
-        return refuse(vector.place.clone(), message);
-    }
-    Some(direction)
 }

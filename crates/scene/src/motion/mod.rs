@@ -7,8 +7,8 @@ mod curve;
 mod error;
 mod framing;
 mod lights;
-
 mod shutter;
+mod sky;
 mod turntable;
 
 pub(crate) use camera::CameraMotion;
@@ -16,3 +16,4 @@ pub use error::{FrameError, FrameFault};
 pub(crate) use framing::{Framed, Framing, Picture, Turning, axes_of_orbit};
 pub(crate) use lights::Lights;
 pub(crate) use shutter::OpenShutter;
+pub(crate) use sky::SkyMotion;

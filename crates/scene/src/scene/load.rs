@@ -12,7 +12,7 @@ use super::source_text::{TextOf, as_ron, text_of, without_byte_order_mark};
 use super::{Description, Scene};
 use crate::figure::Figure;
 use crate::file::{Camera, File, Materials};
-use crate::motion::{CameraMotion, Lights};
+use crate::motion::{CameraMotion, Lights, SkyMotion};
 use crate::report::SceneError;
 use crate::table::Tables;
 use crate::text::{Fault, Placed, Read, Slice, collect, optional, set, token};
@@ -153,7 +153,8 @@ impl Draft {
         let image = file.image.value.as_ref()?;
         let (mut world, clouds) = world?;
         let lights = lights?;
-        if lights.may_have_color() {
+        let sky = SkyMotion::new(file, world.sky)?;
+        if lights.may_have_color() || sky.as_ref().is_some_and(SkyMotion::may_have_color) {
             world.expect_colored_lights();
         }
         let camera = file.camera.value.as_ref()?;
@@ -168,6 +169,7 @@ impl Draft {
             world,
             motion: motion?,
             lights: lights.clone(),
+            sky,
             lens,
             width: image.width.get()?.0,
             height: image.height.get()?.0,
@@ -272,6 +274,7 @@ impl Draft {
         scene.choose_references()?;
         scene.description.lights = scene.lights.names();
         scene.world.lights = scene.first_lights();
+        scene.world.sky = scene.first_sky();
         Ok(scene)
     }
 }

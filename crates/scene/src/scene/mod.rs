@@ -18,10 +18,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Angle, Camera, Exposure, Lens, Light, Pose, Sphere, View, World};
+use marbles_core::{Angle, Camera, Exposure, Lens, Light, Pose, Sky, Sphere, View, World};
 
 use crate::motion::{
-    CameraMotion, FrameError, Framing, Lights, OpenShutter, Picture, Turning, axes_of_orbit,
+    CameraMotion, FrameError, Framing, Lights, OpenShutter, Picture, SkyMotion, Turning,
+    axes_of_orbit,
 };
 use crate::report::SceneError;
 use crate::world::{ColumnSummary, OpenCloud, Series, StepKey};
@@ -59,6 +60,8 @@ pub struct Scene {
     world: World,
     motion: CameraMotion,
     lights: Lights,
+    /// The sky, if keys change it.
+    sky: Option<SkyMotion>,
     lens: Lens,
     width: u32,
     height: u32,
@@ -110,6 +113,7 @@ impl Scene {
             .world(&series.key(frame))
             .map_err(|refused| refused::explain(series, refused))?;
         world.lights.clone_from(&self.world.lights);
+        world.sky = self.world.sky;
         Ok(world)
     }
 
@@ -139,7 +143,7 @@ impl Scene {
     ///
     /// # Errors
     /// Refuses a frame in which the camera looks nowhere, in the middle or when the shutter opens or closes: keys may
-    /// lead a `LookAt` camera to its target. Refuses also a frame in which a light has no direction.
+    /// lead a `LookAt` camera to its target. Refuses also a frame in which a light or the sky has no direction.
     pub fn view(&self, frame: i32) -> Result<View, FrameError> {
         let (motion, lens) = self.motion_at(frame);
         let Pose { camera, zoom } = motion.pose(frame, 0.0)?;
@@ -148,6 +152,7 @@ impl Scene {
             motion.pose(frame, 0.5 * shutter)?;
         }
         self.lights.at(frame, &camera, motion.target())?;
+        self.sky_at(frame)?;
         Ok(View {
             camera,
             lens,
@@ -174,11 +179,37 @@ impl Scene {
                     duration,
                 },
             ),
-            (None, Ok(_)) if self.lights.may_move() => {
-                Exposure::from(view).with_lights(self.lights(view))
+            (None, Ok(_)) => {
+                let mut exposure = Exposure::from(view);
+                if self.lights.may_move() {
+                    exposure = exposure.with_lights(self.lights(view));
+                }
+                match self.sky(view).filter(|_| self.sky.is_some()) {
+                    Some(sky) => exposure.with_sky(sky),
+                    None => exposure,
+                }
             }
             _ => Exposure::from(view),
         }
+    }
+
+    /// The sky in a view of a frame.
+    pub fn sky(&self, view: &View) -> Option<Sky> {
+        let frame = i32::try_from(view.frame).ok();
+        let sky = frame.and_then(|frame| self.sky_at(frame).ok());
+        sky.flatten().or(self.world.sky)
+    }
+
+    /// The sky of a frame, if keys change it.
+    fn sky_at(&self, frame: i32) -> Result<Option<Sky>, FrameError> {
+        self.sky.as_ref().map(|sky| sky.at(frame)).transpose()
+    }
+
+    /// The sky of the first frame; of a frame without one, that of the scene.
+    fn first_sky(&self) -> Option<Sky> {
+        let first = self.frames().map_or(1, |frames| *frames.start());
+        let sky = self.sky_at(first).ok();
+        sky.flatten().or(self.world.sky)
     }
 
     /// The lights in a view of a frame, which may have another size, in the world's axes.
@@ -192,10 +223,10 @@ impl Scene {
         self.lights.at(frame, camera, self.motion.target())
     }
 
-    /// Returns whether the lights of frames may differ from those of others: through keys, on a turntable, or attached
-    /// to the camera.
+    /// Returns whether the lights or the sky of frames may differ from those of others: through keys, on a turntable, or
+    /// attached to the camera.
     pub fn has_moving_lights(&self) -> bool {
-        self.lights.may_move()
+        self.lights.may_move() || self.sky.is_some()
     }
 
     /// The lights of the first frame; of a frame without a view, those that a camera at the origin sees.

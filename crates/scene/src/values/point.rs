@@ -3,11 +3,23 @@
 use glam::{DVec2, DVec3};
 
 use super::quantity::{CellCount, Coordinate, Frame, MOST_FRAMES};
-use crate::text::{Read, Slice, read_tuple};
+use crate::text::{Placed, Read, Slice, read_tuple, refuse};
 
 /// A point or a vector of the world, the origin by default.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point(pub(crate) DVec3);
+
+impl Placed<Point> {
+    /// A vector that has a direction; `None` where a fault was reported.
+    pub(crate) fn direction(&self) -> Option<DVec3> {
+        let direction = self.get()?.0;
+        if direction == DVec3::ZERO {
+            let message = "expected a direction `(x, y, z)`, found the zero vector";
+            return refuse(self.place.clone(), message);
+        }
+        Some(direction)
+    }
+}
 
 /// The direction of an axis, of length 1.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use marbles_core::{Sky, Sphere, World};
 use super::cloud::Cloud;
 use super::materials::Materials;
 use crate::file::{self, File};
-use crate::text::{Placed, optional, refuse};
+use crate::text::{Placed, optional};
 
 /// The world of the file without its lights and clouds, and these; `None` where a fault was reported.
 pub(crate) fn world(file: &File) -> Option<(World, Vec<Cloud>)> {
@@ -51,11 +51,10 @@ fn sky(sky: &file::Sky) -> Option<Sky> {
         file::Sky::Uniform(radiance) => Some(Sky::uniform(radiance.0)),
         file::Sky::Halves(halves) => {
             let [above, below] = [&halves.above, &halves.below].map(Placed::get);
-            let up = halves.up.get()?.0;
-            if up == DVec3::ZERO {
-                let message = "expected a direction `(x, y, z)`, found the zero vector";
-                return refuse(halves.up.place.clone(), message);
-            }
+            let up = match &halves.up {
+                Some(up) => up.direction()?,
+                None => DVec3::Y,
+            };
             Sky::in_halves(above?.0, below?.0, up).ok()
         }
     }

@@ -213,7 +213,7 @@ impl<'a> Sidecar<'a> {
             camera: Camera::of(view, &place),
             lights: lights.collect(),
             ambient: numbers(world.ambient),
-            sky: world.sky.map(|sky| Sky {
+            sky: scene.sky(view).map(|sky| Sky {
                 above: numbers(sky.above()),
                 below: numbers(sky.below()),
                 up: numbers(right_handed(sky.up())),

@@ -39,7 +39,8 @@ fn view(width: u32) -> View {
 
 fn approach_of(world: &World, exposure: &Exposure<'_>, tolerance: f64, alpha: bool) -> Approach {
     let method = Method::Tolerance(tolerance);
-    Approach::of(world, &world.lights, exposure, &Settings { method, alpha })
+    let light = (world.lights.as_slice(), world.sky);
+    Approach::of(world, light, exposure, &Settings { method, alpha })
 }
 
 fn approach(tolerance: f64, alpha: bool) -> Approach {

@@ -10,6 +10,7 @@ use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::light::Light;
 use crate::model::material::Material;
+use crate::model::sky::Sky;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::numeric::angle::Angle;
@@ -169,5 +170,52 @@ fn albedos_of_their_own_look_as_those_of_materials() {
                 assert_eq!(one.rgba(col, row), other.rgba(col, row), "{method:?}");
             }
         }
+    }
+}
+
+#[test]
+fn the_sky_of_an_exposure_is_as_good_as_the_world_s() {
+    let (mut world, view, settings) = ball();
+    let white = world.add_material(Material::default());
+    let beside = Sphere::new(DVec3::new(1.5, -0.5, 4.0), 0.6).unwrap();
+    world.add_sphere(beside, white);
+    let halves = |up| Sky::in_halves(DVec3::splat(0.75), DVec3::splat(0.25), up).unwrap();
+    world.sky = Some(Sky::uniform(DVec3::ONE));
+    let to_a_tolerance = Settings {
+        method: Method::Tolerance(1e-2),
+        alpha: false,
+    };
+    let assert_same = |found: &Image, expected: &Image| {
+        for row in 0..view.height {
+            for col in 0..view.width {
+                assert_eq!(found.rgba(col, row), expected.rgba(col, row));
+                assert_eq!(found.error(col, row), expected.error(col, row));
+            }
+        }
+    };
+    for settings in [settings, to_a_tolerance] {
+        let renderer = Renderer::new(&world);
+        let alone = renderer.under(LightPart::Sky);
+        for sky in [
+            Sky::uniform(DVec3::splat(0.5)),
+            halves(DVec3::Y),
+            halves(DVec3::X),
+            Sky::uniform(DVec3::ONE),
+        ] {
+            let exposure = Exposure::from(&view).with_sky(sky);
+            let mut own = world.clone();
+            own.sky = Some(sky);
+            let own = Renderer::new(&own);
+            let pairs = [(&renderer, &own), (&alone, &own.under(LightPart::Sky))];
+            for (changed, own) in pairs {
+                let found = changed.render(&exposure, &settings);
+                assert_same(&found, &own.render(&view, &settings));
+            }
+        }
+        let without = world.under(LightPart::Ambient);
+        let without = Renderer::new(&without);
+        let exposure = Exposure::from(&view).with_sky(halves(DVec3::Y));
+        let found = without.render(&exposure, &settings);
+        assert_same(&found, &without.render(&view, &settings));
     }
 }

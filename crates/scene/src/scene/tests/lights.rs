@@ -168,6 +168,51 @@ fn the_sky_is_a_color_or_two_halves() {
     );
 }
 
+/// The sky of a frame.
+fn sky(scene: &Scene, frame: i32) -> Sky {
+    let view = scene.view(frame).unwrap();
+    let sky = scene.sky(&view).unwrap();
+    assert_eq!(scene.exposure(&view).sky(), Some(sky));
+    sky
+}
+
+#[test]
+fn keys_change_the_sky() {
+    let scene = scene(
+        "sky: 0.5,
+        animation: Keyframes(keys: [
+            (frame: 1, sky: 0, pan: 3, ease: Linear),
+            (frame: 5, sky: (above: (1, 1, 0), below: 0), ease: Linear),
+            (frame: 7, sky: (above: 1, below: 0, up: (1, 0, 0)), ease: Hold),
+        ])",
+    );
+    assert!(scene.has_moving_lights());
+    let black = Sky::in_halves(DVec3::ZERO, DVec3::ZERO, DVec3::X).unwrap();
+    assert_eq!(scene.world().sky, Some(black));
+    assert_eq!(sky(&scene, 1), black);
+    let halfway = Sky::in_halves(DVec3::new(0.5, 0.5, 0.0), DVec3::ZERO, DVec3::X);
+    assert_eq!(sky(&scene, 3), halfway.unwrap());
+    let last = Sky::in_halves(DVec3::ONE, DVec3::ZERO, DVec3::X);
+    assert_eq!(sky(&scene, 7), last.unwrap());
+    assert_eq!(scene.exposure(&scene.view(7).unwrap()).lights(), None);
+    // All frames have three channels, whatever their own skies are.
+    assert_eq!(Channels::of(scene.world(), false), Channels::Rgb);
+}
+
+#[test]
+fn a_sky_whose_up_passes_the_zero_vector_has_none_there() {
+    let scene = scene(
+        "sky: (above: 1, below: 0),
+        animation: Keyframes(keys: [
+            (frame: 1, sky: (above: 1, below: 0, up: (0, 1, 0)), ease: Linear),
+            (frame: 3, sky: (above: 1, below: 0, up: (0, -1, 0))),
+        ])",
+    );
+    let error = scene.view(2).unwrap_err();
+    assert_eq!(error.to_string(), "frame 2: the sky has no direction `up`");
+    assert!(scene.view(3).is_ok());
+}
+
 /// The directions in which the lamps of a frame face, and their powers.
 fn emissions(scene: &Scene, frame: i32) -> Vec<(DVec3, f64)> {
     let lights = scene.lights(&scene.view(frame).unwrap());
