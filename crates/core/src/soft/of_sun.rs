@@ -197,6 +197,8 @@ impl Light for OfSun<'_> {
         let middle = knots[KNOTS / 2];
         let reach = |knot: &SurfacePoint| (knot.position - middle.position).length();
         let reach = REACH * knots.iter().map(reach).fold(0.0, f64::max);
+        // Above the horizon E₀ grows with the power 5/2 of the distance. To a small exponent this is nearly a step.
+        let is_steep = self.world.material(candidate.sphere).exponent < 1.0;
         for (number, edge) in self.memory.edges[number].iter().enumerate() {
             if matches!(edge, Edge::Sphere { .. }) {
                 let height = edge.height(&middle, &disc);
@@ -218,7 +220,8 @@ impl Light for OfSun<'_> {
                             has_highlight: true
                         }
                     ),
-                    is_exact: curve.is_vertical,
+                    is_exact: curve.is_vertical
+                        || (is_steep && matches!(edge, Edge::Horizon { .. })),
                     number,
                 },
                 breaks,
