@@ -11,6 +11,7 @@
 
 use glam::DVec2;
 
+use super::behind::remove_hidden;
 use super::candidate::Candidate;
 use super::rectangle::{Cell, Contents, Integral, Light, Lit};
 use super::strips::Strips;
@@ -123,7 +124,8 @@ impl Cells {
         let candidates = candidates
             .iter()
             .filter(|candidate| light.may_see(candidate, &cell));
-        let candidates: Vec<Candidate> = candidates.copied().collect();
+        let mut candidates: Vec<Candidate> = candidates.copied().collect();
+        remove_hidden(&mut candidates, &cell, projection);
         self.points += u64::from(!candidates.is_empty());
         let integral = match &candidates[..] {
             [] => Integral::default(),

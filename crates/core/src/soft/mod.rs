@@ -18,6 +18,7 @@
 
 mod across;
 mod arcs;
+mod behind;
 mod bodies;
 mod candidate;
 mod cap;
