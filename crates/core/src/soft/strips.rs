@@ -273,7 +273,7 @@ impl Strips {
         const INSIDE: f64 = 1e-5;
         let [low, high] = between.ends;
         let inside = INSIDE * (high - low);
-        let mut before: Option<(Line, f64)> = None;
+        let (mut first, mut before): (Option<(Line, f64)>, Option<(Line, f64)>) = (None, None);
         let mut values = [Color::ZERO; RULE.len()];
         for (node, across) in RULE.iter().zip(&mut values) {
             let (v, speed) = between.at(node.place);
@@ -284,10 +284,20 @@ impl Strips {
             let below = before.or_else(|| self.unlike(light, scene, low + inside, &line));
             strip.compare(below, Some((line, v)), scene.brightest);
             before = Some((line, v));
+            first = first.or(before);
         }
         if let Some((last, _)) = before {
             let above = self.unlike(light, scene, high - inside, &last);
             strip.compare(before, above, scene.brightest);
+        }
+        if strip.change.is_some() {
+            // Light that begins right before the first line, or the last one, may grow beyond it.
+            for (end, nearest) in [(low + inside, first), (high - inside, before)] {
+                if let Some((nearest, v)) = nearest {
+                    let difference = self.line(light, scene, end).sum - nearest.sum;
+                    strip.error += difference.abs().max_element() * (end - v).abs();
+                }
+            }
         }
         strip.error += doubt_of_rule(&values).max_element();
         strip
