@@ -113,10 +113,17 @@ impl Extent {
     }
 }
 
-/// Bumps that are finer than points of a cell are apart.
+/// How many times as fast as the sphere's the normals of a rough surface turn in most places: they turn as fast as they may in
+/// few. Not tuned.
+fn usual_slope(shading: &ShadingNormal) -> f64 {
+    const OF_BOUND: f64 = 0.3;
+    1.0 + OF_BOUND * (shading.slope_bound() - 1.0)
+}
+
+/// Bumps that are finer than points of a cell are apart. They bend evenly within a cell of the noise.
 pub(crate) fn of_bumps(extent: &Extent, spacing: f64, shading: &ShadingNormal) -> f64 {
-    /// The part of a cell of the noise that points may be apart.
-    const FINE: f64 = 0.25;
+    /// The cells of the noise that points may be apart. Not tuned.
+    const FINE: f64 = 1.0;
     if shading.cells() * extent.turn * spacing > FINE {
         shading.most_tilt().min(1.0)
     } else {
@@ -148,6 +155,7 @@ pub(crate) fn of_exponent(
     }
     let turn = extent.turn * shading.slope_bound();
     let aside = extent.normal.angle_between(sun.disc.axis) - turn - shading.most_tilt();
+    let turn = extent.turn * usual_slope(shading);
     of_lobe(1.0 / exponent.sqrt(), aside, turn, spacing)
 }
 
@@ -162,9 +170,11 @@ pub(crate) fn of_highlight(
         return 0.0;
     };
     let twice_half = sun.disc.axis + extent.to_eye;
-    let turn = extent.turn * shading.slope_bound() + extent.eye_turn / twice_half.length();
+    let eye_turn = extent.eye_turn / twice_half.length();
+    let turn = extent.turn * shading.slope_bound() + eye_turn;
     let angle = extent.normal.angle_between(twice_half.normalize());
     let aside = angle - turn - shading.most_tilt();
+    let turn = extent.turn * usual_slope(shading) + eye_turn;
     let width = 1.0 / highlight.shininess.sqrt();
     of_lobe(width, aside, turn, spacing) * highlight.strength / (1.0 + highlight.strength)
 }
