@@ -29,13 +29,14 @@ fn place(line: &str) -> (u32, u32) {
 }
 
 /// Scenes of which pixels had larger errors than they claimed at these tolerances: slivers between balls of one color, balls
-/// that are taken to fill a box that they do not, and the light of a sky that another sphere begins to hide.
-const FALSE_CLAIMS: [&str; 5] = [
+/// that are taken to fill a box that they do not, the light of a sky that another sphere begins to hide, and of a sun that rises.
+const FALSE_CLAIMS: [&str; 6] = [
     "sliver_between_balls_of_one_color",
     "tip_in_a_sliver",
     "sphere_that_seems_to_fill_a_box",
     "seam_beside_a_sphere_that_seems_to_fill_a_box",
     "sphere_that_rises_over_a_horizon",
+    "small_exponent_under_a_sun",
 ];
 const TOLERANCES_OF_CLAIMS: [f64; 4] = [1e-2, 1e-3, 3e-4, 1e-4];
 
@@ -111,5 +112,5 @@ fn found_pixels_are_within_their_tolerance_or_say_so() {
         }
         count += 1;
     }
-    assert!(count >= 56, "{count}");
+    assert!(count >= 61, "{count}");
 }

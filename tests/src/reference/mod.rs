@@ -99,6 +99,10 @@ impl<'world> Reference<'world> {
         let (depth, mut budget) = self.most();
         let mut truth = patch_truth(&patch, depth, tolerance, &mut budget);
         truth.error += ROUNDING + patch.noise;
+        assert!(
+            truth.value.is_finite(),
+            "column {col}, row {row}: not a number"
+        );
         truth
     }
 
@@ -120,6 +124,10 @@ impl<'world> Reference<'world> {
             sum.has_edge |= quarter.has_edge;
             sum.lines += quarter.lines;
         }
+        assert!(
+            sum.value.is_finite(),
+            "column {col}, row {row}: not a number"
+        );
         sum
     }
 

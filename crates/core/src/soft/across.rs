@@ -51,3 +51,51 @@ pub(crate) fn doubt_of_rule(values: &[Color; 5]) -> Color {
     );
     difference.max(expected)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the rule makes of a function on (0, 1), and what that may be off by.
+    fn integral(function: impl Fn(f64) -> f64) -> (f64, f64) {
+        let values = RULE
+            .each_ref()
+            .map(|node| Color::splat(function(node.place)));
+        let weighted = RULE
+            .iter()
+            .zip(&values)
+            .map(|(node, value)| value.x * node.weight);
+        (weighted.sum(), doubt_of_rule(&values).x)
+    }
+
+    #[test]
+    fn dips_are_not_missed_by_chance() {
+        for width in [0.15, 0.2, 0.3, 0.5, 1.0] {
+            for place in -20..=120 {
+                let middle = f64::from(place) / 100.0;
+                let scaled = |x: f64| (x - middle) / width;
+                let (found, doubt) = integral(|x| libm::exp(-scaled(x).powi(2)));
+                let part = libm::erf(scaled(1.0)) - libm::erf(scaled(0.0));
+                let exact = 0.5 * std::f64::consts::PI.sqrt() * width * part;
+                let error = (found - exact).abs();
+                assert!(
+                    error <= doubt,
+                    "{middle}, {width}: off by {error}, doubt {doubt}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn polynomials_are_not_in_doubt() {
+        for degree in 0..=2 {
+            let (found, doubt) = integral(|x| (x - 0.3).powi(degree));
+            let power = degree + 1;
+            let exact = (0.7_f64.powi(power) - (-0.3_f64).powi(power)) / f64::from(power);
+            assert!(
+                (found - exact).abs() < 1e-15 && doubt < 1e-15,
+                "{degree}: {doubt}"
+            );
+        }
+    }
+}

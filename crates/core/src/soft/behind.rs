@@ -1,5 +1,7 @@
 //! Spheres that a cell does not see because another one fills it.
 
+use glam::DVec2;
+
 use super::candidate::Candidate;
 use super::rectangle::Cell;
 use crate::model::camera::Projection;
@@ -17,7 +19,7 @@ pub(crate) fn remove_hidden(candidates: &mut Vec<Candidate>, cell: &Cell, projec
         .filter_map(|one| farthest(one, cell, projection));
     let far = far.fold(f64::INFINITY, f64::min);
     if far.is_finite() {
-        candidates.retain(|one| one.least_distance(cell, projection) <= far);
+        candidates.retain(|one| nearest(one, cell, projection) <= far);
     }
 }
 
@@ -40,6 +42,38 @@ fn farthest(sphere: &Candidate, cell: &Cell, projection: Projection) -> Option<f
         }
     }
     Some(farthest + SLACK * sphere.center.length())
+}
+
+/// A bound of how near a sphere may be seen in a cell.
+///
+/// The distance of what a ray meets grows with the angle between the ray and the direction of the center.
+fn nearest(sphere: &Candidate, cell: &Cell, projection: Projection) -> f64 {
+    /// What rounding may move a ray by, in parts of the distance of a center.
+    const ROUNDING: f64 = 1e-14;
+    let middle = cell.middle();
+    let half = 0.5 * DVec2::new(cell.u[1] - cell.u[0], cell.v[1] - cell.v[0]).length();
+    match projection {
+        Projection::Central => {
+            // A ray turns by less than its end moves.
+            let ray = middle.extend(1.0).normalize();
+            let (sine, cosine) = (half.min(1.0), (1.0 - half.min(1.0).powi(2)).sqrt());
+            let aside = ray.cross(sphere.center).length() * cosine
+                - ray.dot(sphere.center) * sine
+                - ROUNDING * sphere.center.length();
+            let aside = aside.clamp(0.0, sphere.radius);
+            let to_foot = (sphere.center.length_squared() - aside * aside)
+                .max(0.0)
+                .sqrt();
+            let root = (sphere.radius * sphere.radius - aside * aside).sqrt();
+            sphere.outside.max(0.0) / (to_foot + root)
+        }
+        Projection::Parallel => {
+            let aside = (middle - sphere.center.truncate()).length() - half;
+            let aside = aside.clamp(0.0, sphere.radius);
+            let root = (sphere.radius * sphere.radius - aside * aside).sqrt();
+            (sphere.center.z - root).max(0.0)
+        }
+    }
 }
 
 #[cfg(test)]

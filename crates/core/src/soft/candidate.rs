@@ -2,7 +2,6 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::rectangle::Cell;
 use crate::hit::ball::Ball;
 use crate::model::camera::Projection;
 
@@ -165,38 +164,6 @@ impl Candidate {
             }
         };
         distance <= self.radius + SLACK * (reach + self.radius)
-    }
-
-    /// A bound of how near it may be seen in a cell.
-    ///
-    /// The distance of what a ray meets grows with the angle between the ray and the direction of the center.
-    pub(super) fn least_distance(&self, cell: &Cell, projection: Projection) -> f64 {
-        /// What rounding may move a ray by, in parts of the distance of a center.
-        const ROUNDING: f64 = 1e-14;
-        let middle = cell.middle();
-        let half = 0.5 * DVec2::new(cell.u[1] - cell.u[0], cell.v[1] - cell.v[0]).length();
-        match projection {
-            Projection::Central => {
-                // A ray turns by less than its end moves.
-                let ray = middle.extend(1.0).normalize();
-                let (sine, cosine) = (half.min(1.0), (1.0 - half.min(1.0).powi(2)).sqrt());
-                let aside = ray.cross(self.center).length() * cosine
-                    - ray.dot(self.center) * sine
-                    - ROUNDING * self.center.length();
-                let aside = aside.clamp(0.0, self.radius);
-                let to_foot = (self.center.length_squared() - aside * aside)
-                    .max(0.0)
-                    .sqrt();
-                let root = (self.radius * self.radius - aside * aside).sqrt();
-                self.outside.max(0.0) / (to_foot + root)
-            }
-            Projection::Parallel => {
-                let aside = (middle - self.center.truncate()).length() - half;
-                let aside = aside.clamp(0.0, self.radius);
-                let root = (self.radius * self.radius - aside * aside).sqrt();
-                (self.center.z - root).max(0.0)
-            }
-        }
     }
 
     /// Adds the places on a line at which a ray begins or ceases to meet the concentric sphere of a radius.

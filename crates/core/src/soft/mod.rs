@@ -9,8 +9,8 @@
 //! | `cap.rs`, `circles.rs`, `arcs.rs`, `visible.rs` | caps, the arcs of their circles, the integral over what is visible |
 //! | `point.rs`, `sun.rs`, `sky.rs`, `light.rs` | points, and the light at a point |
 //! | `candidate.rs`, `seam.rs`, `line.rs`, `heights.rs` | what is seen along a line of the picture, and between which heights that changes smoothly |
-//! | `rectangle.rs`, `cell.rs` | a pixel or a part of one, and the average over it |
-//! | `curve.rs`, `rule.rs`, `strips.rs` | the same along lines |
+//! | `rectangle.rs`, `behind.rs`, `cell.rs` | a pixel or a part of one, the spheres of it that others hide, and the average over it |
+//! | `curve.rs`, `rule.rs`, `across.rs`, `strips.rs` | the same along lines, and from lines across it |
 //! | `edges.rs`, `of_sun.rs` | a sun's light in a pixel: the places on a line are found where spheres begin to hide it |
 //! | `hemisphere.rs`, `gather.rs`, `bodies.rs`, `list.rs`, `node.rs`, `of_sky.rs` | a sky's light in a pixel: from `patches`, whose nodes only some spheres hide light from |
 //! | `doubt.rs` | changes of light that points of a cell may miss |

@@ -273,7 +273,8 @@ impl Strips {
         const INSIDE: f64 = 1e-5;
         let [low, high] = between.ends;
         let inside = INSIDE * (high - low);
-        let (mut first, mut before): (Option<(Line, f64)>, Option<(Line, f64)>) = (None, None);
+        let mut first: Option<(Line, f64)> = None;
+        let mut before: Option<(Line, f64)> = None;
         let mut values = [Color::ZERO; RULE.len()];
         for (node, across) in RULE.iter().zip(&mut values) {
             let (v, speed) = between.at(node.place);

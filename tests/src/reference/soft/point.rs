@@ -69,7 +69,8 @@ impl Place {
         let horizons = hidden.len();
         let light = |hidden: &[Cap]| {
             let [free, _] = meridians.integral(self.shading, hidden, None, solid_angle, tolerance);
-            free
+            // Rounding must not make it negative: it has no powers then.
+            free.max(0.0)
         };
         // A surface that faces the whole disc: s² π n·a over the solid angle.
         let sine = libm::sin(half);
