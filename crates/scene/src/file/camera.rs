@@ -255,15 +255,7 @@ impl Camera {
         match self {
             Self::Free { .. } => &["position", "pan", "tilt", "roll", "zoom"],
             Self::LookAt { .. } => &["position", "target", "roll", "zoom"],
-            Self::Orbit { .. } => &[
-                "target",
-                "radius",
-                "azimuth",
-                "elevation",
-                "roll",
-                "zoom",
-                "sky",
-            ],
+            Self::Orbit { .. } => &["target", "radius", "azimuth", "elevation", "roll", "zoom"],
             Self::Frame { .. } => &["azimuth", "elevation", "roll", "zoom"],
             Self::Pose { .. } => &["zoom"],
         }

@@ -97,7 +97,7 @@ fn refuse_keys_of_sky(keys: &[Placed<Key>], text: &str) {
         if let Some(sky) = key.and_then(|key| key.sky.as_ref()) {
             let place = token::field_name(text, placed.place.start, sky.place.start);
             let message =
-                "expected a `sky` of the scene, which keys may change; the scene has none";
+                "expected a scene with a `sky`, which keys may change, found one without it";
             refuse::<()>(place, message);
         }
     }
