@@ -50,6 +50,9 @@ fn farthest(sphere: &Candidate, cell: &Cell, projection: Projection) -> Option<f
 fn nearest(sphere: &Candidate, cell: &Cell, projection: Projection) -> f64 {
     /// What rounding may move a ray by, in parts of the distance of a center.
     const ROUNDING: f64 = 1e-14;
+    if sphere.outside <= 0.0 {
+        return 0.0;
+    }
     let middle = cell.middle();
     let half = 0.5 * DVec2::new(cell.u[1] - cell.u[0], cell.v[1] - cell.v[0]).length();
     match projection {
@@ -61,14 +64,15 @@ fn nearest(sphere: &Candidate, cell: &Cell, projection: Projection) -> f64 {
                 - ray.dot(sphere.center) * sine
                 - ROUNDING * sphere.center.length();
             let aside = aside.clamp(0.0, sphere.radius);
-            let to_foot = (sphere.center.length_squared() - aside * aside)
-                .max(0.0)
-                .sqrt();
+            // Rounding must not make it less than that of a ray that touches the sphere.
+            let to_foot = (sphere.center.length_squared() - aside * aside).max(sphere.outside);
             let root = (sphere.radius * sphere.radius - aside * aside).sqrt();
-            sphere.outside.max(0.0) / (to_foot + root)
+            sphere.outside / (to_foot.sqrt() + root)
         }
         Projection::Parallel => {
-            let aside = (middle - sphere.center.truncate()).length() - half;
+            let aside = (middle - sphere.center.truncate()).length()
+                - half
+                - ROUNDING * sphere.center.length();
             let aside = aside.clamp(0.0, sphere.radius);
             let root = (sphere.radius * sphere.radius - aside * aside).sqrt();
             (sphere.center.z - root).max(0.0)
@@ -115,6 +119,10 @@ mod tests {
             let spheres = [(at(5.0), 2.0), (at(4.5), 1.498), (at(1.0), 5.0)];
             assert_eq!(left(&spheres, projection), [0, 1, 2]);
         }
+        // Right above a huge floor, which is seen from the eye to its horizon.
+        let eye = DVec3::new(0.0, -1e9, 0.0);
+        let spheres = [(eye, 1e9 - 1e-7), (at(20.0), 8.0)];
+        assert_eq!(left(&spheres, Projection::Central), [0, 1]);
         // Not all rays meet it.
         let spheres = [(at(9.0), 1.0), (at(5.0), 0.2)];
         assert_eq!(left(&spheres, Projection::Central), [0, 1]);
