@@ -8,7 +8,7 @@ use crate::channels::{Channels, read};
 use crate::folder::{Folder, code, text};
 
 /// The scene of `balls`, without the part before its spheres.
-fn balls(light: &str) -> String {
+pub(crate) fn balls(light: &str) -> String {
     format!(
         "(image: (width: 50, height: 37), lens: Fov(40), camera: Free(position: (0, 0, -6)), {light}
          materials: {{ \"red\": (albedo: (0.75, 0.25, 0.125), highlight: (strength: 0.25, shininess: 9)) }},

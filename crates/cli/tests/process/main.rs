@@ -40,6 +40,7 @@ mod sequences;
 mod series;
 mod sidecar;
 mod signals;
+mod sky_keys;
 mod standard_input;
 mod standard_output;
 #[cfg(target_os = "linux")]
