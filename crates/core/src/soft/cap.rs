@@ -22,15 +22,6 @@ pub(crate) const NO_SPHERE: u32 = u32::MAX;
 /// formulas are accurate there.
 pub(super) const NEARLY_OPPOSITE: f64 = 1.5;
 
-/// What a cap covers of the circle around another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Cover {
-    Nothing,
-    All,
-    /// The arc from the first point counterclockwise to the second. A point is a unit vector in the circle's frame.
-    Arc([DVec2; 2]),
-}
-
 /// How the circle around a cap lies to another cap.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Meeting {
@@ -47,18 +38,15 @@ pub(crate) struct Crossing {
     /// A vector that points to the middle of the covered arc, but for a part along the circle's axis.
     across: DVec3,
     /// √D and t, whose ratio is the tangent of half of the covered arc.
-    root: f64,
-    t: f64,
+    pub(super) root: f64,
+    pub(super) t: f64,
 }
 
 impl Crossing {
-    /// The begin and the end of the covered arc counterclockwise, as vectors of some length in the circle's frame.
+    /// The vector in the circle's frame that points to the middle of the covered arc.
     #[inline]
-    pub(crate) fn ends(&self, frame: &Frame) -> [DVec2; 2] {
-        let toward = DVec2::new(self.across.dot(frame.x), self.across.dot(frame.y));
-        let (t, root) = (self.t, self.root);
-        let (x, y) = (toward * t, toward.perp() * root);
-        [x - y, x + y]
+    pub(super) fn toward(&self, frame: &Frame) -> DVec2 {
+        DVec2::new(self.across.dot(frame.x), self.across.dot(frame.y))
     }
 }
 
@@ -133,16 +121,6 @@ impl Cap {
         // The difference of axes is exact where they are close.
         (self.axis - origin) - self.axis * self.versine
             + (frame.x * at.x + frame.y * at.y) * self.sine
-    }
-
-    /// What another cap covers of the circle around this one. Of two equal caps `is_first` tells whether this one counts
-    /// as the larger one.
-    pub(crate) fn covered(&self, frame: &Frame, other: &Self, is_first: bool) -> Cover {
-        match self.meeting(other, is_first) {
-            Meeting::Apart => Cover::Nothing,
-            Meeting::Inside => Cover::All,
-            Meeting::Crossing(crossing) => Cover::Arc(crossing.ends(frame).map(DVec2::normalize)),
-        }
     }
 
     /// How the circle around this cap lies to another cap. Of two equal caps `is_first` tells whether this one counts as the

@@ -4,13 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::arcs::{CoveredArcs, End};
+use super::arcs::{Arcs, End};
 use super::bodies::Bodies;
-use super::cap::{Cap, Cover, Frame, Meeting};
-use super::circles::{BLOCK, Circles};
-use super::hemisphere::Hemisphere;
+use super::cap::{Cap, Frame, Meeting};
+use super::circles::Circles;
 use super::point::SurfacePoint;
-use crate::numeric::bits::set_bits;
 use crate::numeric::pair::both;
 
 /// The caps that hide directions from a point, and memory to work in.
@@ -20,7 +18,7 @@ pub(crate) struct Hidden {
     found: Vec<Cap>,
     /// The caps that were left, side by side.
     circles: Circles,
-    arcs: CoveredArcs,
+    arcs: Arcs,
     /// How the last integral over all directions changes with the caps whose circles are visible.
     slopes: Vec<CapSlope>,
 }
@@ -62,18 +60,13 @@ impl Hidden {
         let mut caps = std::mem::take(&mut self.found);
         caps.clear();
         bodies.caps(point.position, point.normal, &mut caps);
-        let mut above = Hemisphere::new(point.normal, 0.0);
         self.circles.clear();
         for cap in &caps {
-            if self.caps.len() < BLOCK {
-                self.circles.push(cap);
-            } else if self.circles.block(cap, 0).around != 0 {
+            if self.circles.contain(cap) || cap.axis.dot(point.shading) <= -cap.sine {
                 continue;
             }
-            if !above.is_hidden(cap) && cap.axis.dot(point.shading) > -cap.sine {
-                above.hide(cap);
-                self.caps.push(*cap);
-            }
+            self.circles.push(cap);
+            self.caps.push(*cap);
         }
         self.found = caps;
     }
@@ -136,11 +129,10 @@ impl Hidden {
             normal.dot(point) * turn / (cap.sine * cap.sine * change)
         };
         let mut sum = 0.0;
-        self.arcs.for_each_exposed(|ends| {
-            if let Some([begin, end]) = ends {
-                sum += moved(&end) - moved(&begin);
-            }
-        });
+        for arc in self.arcs.exposed() {
+            let [begin, end] = &arc.ends;
+            sum += moved(end) - moved(begin);
+        }
         sum
     }
 
@@ -167,87 +159,55 @@ impl Hidden {
     /// What the arcs of a cap's circle that no other cap hides, and that lie in a disc, if there is one, contribute; none if
     /// there are no such arcs.
     fn along(&mut self, index: usize, disc: Option<&Cap>, origin: DVec3) -> Option<Border> {
-        let Self {
-            caps,
-            circles,
-            arcs,
-            ..
-        } = self;
-        let cap = caps[index];
+        let cap = self.caps[index];
         let frame = cap.frame();
-        arcs.clear();
+        self.arcs.clear();
         if let Some(disc) = disc {
-            match cap.covered(&frame, disc, false) {
-                Cover::Nothing => return None,
-                Cover::All => {}
-                Cover::Arc([begin, end]) => arcs.cover([end, begin], index),
+            match cap.meeting(disc, false) {
+                Meeting::Apart => return None,
+                Meeting::Inside => {}
+                Meeting::Crossing(crossing) => self.arcs.cover_rest(&crossing, &frame, index),
             }
         }
-        for block in 0..circles.blocks() {
-            let found = circles.block(&cap, block);
-            if found.around != 0 {
-                return None;
-            }
-            for bit in set_bits(found.unsure) {
-                let number = block * BLOCK + bit;
-                if number == index {
-                    continue;
-                }
-                match cap.meeting(&caps[number], index < number) {
-                    Meeting::Apart => {}
-                    Meeting::Inside => return None,
-                    Meeting::Crossing(crossing) => {
-                        arcs.cover(crossing.ends(&frame), number);
-                        if arcs.is_whole() {
-                            return None;
-                        }
-                    }
-                }
-            }
-        }
-        Some(integral(arcs, &cap, &frame, origin))
+        self.exposed(&cap, &frame, index, origin)
     }
 
     /// The integral along the arcs of a disc's circle that no cap hides.
     fn along_disc(&mut self, disc: &Cap) -> DVec3 {
-        let frame = disc.frame();
         self.arcs.clear();
-        for (number, cap) in self.caps.iter().enumerate() {
-            match disc.covered(&frame, cap, false) {
-                Cover::Nothing => {}
-                Cover::All => return DVec3::ZERO,
-                Cover::Arc(points) => self.arcs.cover(points, number),
-            }
-            if self.arcs.is_whole() {
-                return DVec3::ZERO;
-            }
-        }
-        integral(&self.arcs, disc, &frame, disc.axis).part
+        let border = self.exposed(disc, &disc.frame(), usize::MAX, disc.axis);
+        border.map_or(DVec3::ZERO, |border| border.part)
+    }
+
+    /// What the arcs of a circle that no cap hides contribute, of which some may be covered; none if there are none.
+    fn exposed(&mut self, cap: &Cap, frame: &Frame, index: usize, origin: DVec3) -> Option<Border> {
+        let is_exposed = self
+            .circles
+            .expose((cap, frame), &self.caps, index, &mut self.arcs);
+        is_exposed.then(|| integral(&self.arcs, cap, frame, origin))
     }
 }
 
 /// The integrals along the arcs of a circle that are not covered, counterclockwise; r is measured from `origin`.
-fn integral(arcs: &CoveredArcs, cap: &Cap, frame: &Frame, origin: DVec3) -> Border {
+fn integral(arcs: &Arcs, cap: &Cap, frame: &Frame, origin: DVec3) -> Border {
     let mut border = Border::default();
     let (mut chords, mut segments) = (DVec3::ZERO, 0.0);
-    arcs.for_each_exposed(|ends| match ends {
-        None => {
-            segments += TAU;
-            border.angles += TAU;
-        }
-        Some(ends) => {
-            let ends = both(ends, |end| end.at);
-            let points = both(ends, |at| cap.point(frame, at, origin));
-            chords += points[0].cross(points[1]);
-            let angle = angle(ends);
-            segments += segment(angle);
-            border.angles += angle;
-            let [begin, end] = ends;
-            border.first += (begin - end).perp();
-            border.second.x += 0.5 * (end.x * end.y - begin.x * begin.y);
-            border.second.y += 0.5 * (end.y * end.y - begin.y * begin.y);
-        }
-    });
+    for arc in arcs.exposed() {
+        let ends = both(arc.ends, |end| end.at);
+        let points = both(ends, |at| cap.point(frame, at, origin));
+        chords += points[0].cross(points[1]);
+        let angle = arc.angle();
+        segments += segment(angle);
+        border.angles += angle;
+        let [begin, end] = ends;
+        border.first += (begin - end).perp();
+        border.second.x += 0.5 * (end.x * end.y - begin.x * begin.y);
+        border.second.y += 0.5 * (end.y * end.y - begin.y * begin.y);
+    }
+    if arcs.exposed().is_empty() {
+        segments = TAU;
+        border.angles = TAU;
+    }
     border.part = 0.5 * (chords + cap.axis * (cap.sine * cap.sine * segments));
     border
 }
@@ -279,12 +239,6 @@ impl Border {
             by_axis: (frame.x * toward.x + frame.y * toward.y) * -cap.sine,
         }
     }
-}
-
-/// The angle from a unit vector counterclockwise to another, from 0 to a turn.
-fn angle([begin, end]: [DVec2; 2]) -> f64 {
-    let angle = libm::atan2(begin.perp_dot(end), begin.dot(end));
-    if angle < 0.0 { angle + TAU } else { angle }
 }
 
 /// φ − sin φ.

@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::{Hidden, share_of, sky_share};
-use crate::soft::cap::{Cap, Cover};
+use crate::soft::cap::{Cap, Meeting};
 
 /// Numbers from 0 to 1.
 struct Random(u64);
@@ -106,9 +106,14 @@ fn along_meridians(caps: &[Cap], axis: DVec3, reach: f64) -> DVec3 {
 /// The directions on the circles around two caps: only ends of intervals of quadrature.
 fn crossings(one: &Cap, other: &Cap) -> Option<[DVec3; 2]> {
     let frame = one.frame();
-    match one.covered(&frame, other, false) {
-        Cover::Arc(points) => Some(points.map(|at| one.point(&frame, at, DVec3::ZERO))),
-        Cover::Nothing | Cover::All => None,
+    match one.meeting(other, false) {
+        Meeting::Crossing(crossing) => {
+            let toward = crossing.toward(&frame);
+            let (x, y) = (toward * crossing.t, toward.perp() * crossing.root);
+            let ends = [x - y, x + y];
+            Some(ends.map(|at| one.point(&frame, at.normalize(), DVec3::ZERO)))
+        }
+        Meeting::Apart | Meeting::Inside => None,
     }
 }
 
@@ -328,4 +333,29 @@ fn a_sphere_that_is_there_twice_hides_as_much_as_one() {
             (once - nearly).length()
         );
     }
+}
+
+#[test]
+fn circles_through_one_point_hide_what_meridians_say() {
+    let mut random = Random(4);
+    let mut largest: f64 = 0.0;
+    for scene in 0..600 {
+        let normal = random.direction();
+        // Of every other scene in the middle of the first circle's frame, where its arcs are cut.
+        let mut axes = [(); 4].map(|()| (normal + random.direction()).normalize());
+        let through = if scene % 2 == 0 {
+            (normal + random.direction()).normalize()
+        } else {
+            let first = Cap::within(axes[0], 0.2 + random.next());
+            first.point(&first.frame(), DVec2::X, DVec3::ZERO)
+        };
+        axes.sort_by(|one, other| one.x.total_cmp(&other.x));
+        let mut caps = vec![Cap::below(normal)];
+        let around = axes.iter().filter(|axis| axis.dot(through) > 0.1);
+        caps.extend(around.map(|&axis| Cap::within(axis, libm::acos(axis.dot(through)))));
+        let seen = hidden(&caps).seen(normal);
+        let truth = along_meridians(&caps, normal, PI);
+        largest = largest.max((seen - truth).length());
+    }
+    assert!(largest < 1e-12, "{largest:e}");
 }
