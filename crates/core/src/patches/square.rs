@@ -94,19 +94,25 @@ impl Square {
         ((at + 1.0) * (0.5 * side) - place).clamp(DVec2::ZERO, DVec2::ONE)
     }
 
-    pub(crate) fn level(&self) -> u8 {
-        self.level
+    /// The square of a level, at most its own, that it is a part of.
+    pub(crate) fn around_it(&self, level: u8) -> Self {
+        let finer = self.level - level;
+        Self {
+            level,
+            place: both(self.place, |place| place >> finer),
+            ..*self
+        }
     }
 
-    /// The square of which it is a quarter; none of a whole face.
-    pub(crate) fn parent(&self) -> Option<Self> {
-        let level = self.level.checked_sub(1)?;
-        let place = [self.place[0] / 2, self.place[1] / 2];
-        Some(Self {
-            level,
-            place,
-            ..*self
-        })
+    /// The square, perhaps one around it, that has a list of the spheres that may hide light from it and its nodes; of a level
+    /// from [`WIDEST`] on.
+    pub(crate) fn home(&self) -> Self {
+        self.around_it(listed(self.level - 1))
+    }
+
+    /// The next larger square that has such a list; none of the widest ones.
+    pub(crate) fn next_home(&self) -> Option<Self> {
+        (self.level > WIDEST).then(|| self.home())
     }
 
     /// One of its 2 × 2 quarters.
@@ -176,12 +182,10 @@ impl Node {
         self.0
     }
 
-    /// A square around it of which the spheres are found that may hide light from it: if it is small, the parent of a square
-    /// whose node it is, or one beside that.
+    /// A square around it that has a list of the spheres that may hide light from it: if it is small, the one of a square whose
+    /// node it is, or one beside that.
     pub(crate) fn home(&self) -> Square {
-        /// From wider squares more spheres are seen.
-        const WIDEST: u8 = 2;
-        let level = self.0.level.saturating_sub(2).max(WIDEST);
+        let level = listed(self.0.level.saturating_sub(2));
         let last = (1_u64 << level) - 1;
         let at_level = |place: u64| {
             if level > self.0.level {
@@ -197,6 +201,16 @@ impl Node {
             ..self.0
         }
     }
+}
+
+/// The level of the widest squares. From wider ones spheres hide little.
+pub(crate) const WIDEST: u8 = 2;
+
+/// The level from a level down, or [`WIDEST`], whose squares have lists of spheres. Not each one has: the next finer lists are
+/// hardly shorter.
+fn listed(level: u8) -> u8 {
+    const STEP: u8 = 2;
+    WIDEST + level.saturating_sub(WIDEST) / STEP * STEP
 }
 
 /// The point of a sphere with a normal.
@@ -220,7 +234,7 @@ mod tests {
             let (middle, chord) = square.extent();
             assert!((middle - normal).length() <= chord * (1.0 + 1e-9));
             let quarter = square.quarter(1, 0);
-            assert_eq!(quarter.parent(), Some(square));
+            assert_eq!(quarter.around_it(level as u8), square);
             let apart = square.normal(DVec2::new(0.25, 0.75)) - quarter.node(1, 1).normal();
             assert!(apart.length() < 1e-15);
         }
@@ -237,7 +251,7 @@ mod tests {
         for row in 0..3 {
             assert_eq!(square.node(row, 2), right.node(row, 0));
         }
-        let parent = right.parent().unwrap();
+        let parent = right.around_it(3);
         let quarter = right.place.map(|place| (place % 2) as usize);
         assert_eq!(right.node(0, 0), parent.node(quarter[1], quarter[0]));
         for (row, col) in [(0, 0), (1, 1), (2, 1), (2, 2)] {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::cap::Cap;
-use super::hemisphere::Hemisphere;
+use super::hemisphere::{Hemisphere, NARROWEST};
 use super::point::Occluders;
 use crate::model::sphere::Sphere;
 use crate::search::hierarchy::BoxTest;
@@ -39,10 +39,17 @@ impl Neighborhood {
         (to_center.length() > 1.000_001 * reach).then(|| Cap::of_sphere(to_center, reach))
     }
 
-    /// Directions that lie toward a ball from all points.
+    /// Directions that lie toward a ball from all points; none if they are too few to hide anything, or if a point may be
+    /// inside of it.
     fn cap_from_all(&self, center: DVec3, radius: f64) -> Option<Cap> {
-        let reach = radius - self.around - SLACK * self.middle.abs().max_element();
-        (reach > 0.0).then(|| Cap::of_sphere(center - self.middle, reach))
+        let (to_center, slack) = (
+            center - self.middle,
+            SLACK * self.middle.abs().max_element(),
+        );
+        let reach = radius - self.around - slack;
+        let distance = to_center.length();
+        let is_outside = distance > 1.000_001 * (radius + self.around + slack);
+        (reach > NARROWEST * distance && is_outside).then(|| Cap::of_sphere(to_center, reach))
     }
 
     /// The share of a sky's light that a sphere may darken between points of the surface that tell nothing of it: points some
@@ -87,14 +94,8 @@ pub(crate) fn gather(occluders: &Occluders<'_>, own: usize, of: &Neighborhood) -
                 if !of.may_be_above(center, radius) {
                     continue;
                 }
-                let widest = of.cap_from_any(center, radius);
-                if let Some(widest) = &widest {
-                    if hidden.is_hidden(widest) {
-                        continue;
-                    }
-                    if let Some(narrowest) = of.cap_from_all(center, radius) {
-                        hidden.hide(&narrowest);
-                    }
+                if let Some(narrowest) = of.cap_from_all(center, radius) {
+                    hidden.hide(&narrowest);
                 }
                 near.push(key((center - of.middle).length() / radius, index));
             }
@@ -117,13 +118,12 @@ pub(crate) fn select(spheres: &[Sphere], among: &[u32], of: &Neighborhood) -> Ve
         if !of.may_be_above(center, radius) {
             continue;
         }
-        if let Some(widest) = of.cap_from_any(center, radius) {
-            if hidden.is_hidden(&widest) {
-                continue;
-            }
-            if let Some(narrowest) = of.cap_from_all(center, radius) {
-                hidden.hide(&narrowest);
-            }
+        let widest = of.cap_from_any(center, radius);
+        if widest.is_some_and(|widest| hidden.is_hidden(&widest)) {
+            continue;
+        }
+        if let Some(narrowest) = of.cap_from_all(center, radius) {
+            hidden.hide(&narrowest);
         }
         found.push(index);
     }

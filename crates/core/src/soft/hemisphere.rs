@@ -15,6 +15,9 @@ const SIDE: usize = 64;
 const ROWS: usize = 32;
 const TALL: f64 = (SIDE / ROWS) as f64;
 
+/// Caps whose angles have smaller sines fill hardly a cell.
+pub(crate) const NARROWEST: f64 = 1.5 / SIDE as f64;
+
 /// What rounding may move a circle by.
 const SLACK: f64 = 1e-9;
 
@@ -86,7 +89,10 @@ impl Hemisphere {
 
     /// Hides the directions within a cap.
     pub(crate) fn hide(&mut self, cap: &Cap) {
-        if let Some(disc) = self.disc(cap, -SLACK) {
+        // Smaller ones fill no cell.
+        if let Some(disc) = self.disc(cap, -SLACK)
+            && disc.radius > 0.5 * (1.0 + TALL)
+        {
             for row in disc.rows() {
                 self.rows[row] |= disc.filled(row);
             }
@@ -95,12 +101,13 @@ impl Hemisphere {
 
     /// True if all directions within a cap are hidden.
     pub(crate) fn is_hidden(&self, cap: &Cap) -> bool {
-        match self.disc(cap, SLACK) {
-            Some(disc) => disc
-                .rows()
-                .all(|row| disc.touched(row) & !self.rows[row] == 0),
-            None => false,
-        }
+        let Some(disc) = self.disc(cap, SLACK) else {
+            return false;
+        };
+        let is_hidden = |row: usize| disc.touched(row) & !self.rows[row] == 0;
+        // Most caps that are seen are seen in the middle.
+        let middle = disc.center.y.clamp(0.0, SIDE as f64 - 1.0) / TALL;
+        is_hidden(middle as usize) && disc.rows().all(is_hidden)
     }
 }
 

@@ -6,9 +6,6 @@ use super::point::Occluders;
 use crate::model::sphere::Sphere;
 use crate::patches::square::{Square, point};
 
-/// The level of the squares whose lists are gathered from all spheres. From wider ones spheres hide little.
-pub(crate) const GATHERED: u8 = 2;
-
 /// The spheres that may hide light from a square, found among all.
 pub(crate) fn gathered(square: &Square, occluders: &Occluders<'_>) -> Vec<u32> {
     let own = square.sphere as usize;

@@ -10,7 +10,7 @@ use super::curve::Curve;
 use super::doubt::{Extent, of_bumps, of_shadows, of_small_spheres};
 use super::edges::Break;
 use super::gather::Neighborhood;
-use super::list::{GATHERED, arrange, gathered, missed, of_part};
+use super::list::{arrange, gathered, missed, of_part};
 use super::node::light_at_node;
 use super::point::{Occluders, SurfacePoint};
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
@@ -26,7 +26,7 @@ use crate::numeric::pair::both;
 use crate::patches::known::Patches;
 use crate::patches::light::{NodeLight, Shares};
 use crate::patches::patch::Patch;
-use crate::patches::square::{Node, Square, point as point_of};
+use crate::patches::square::{Node, Square, WIDEST, point as point_of};
 
 /// Squares of which a thread knows the patch, and the spheres that may hide light from them.
 const KNOWN: usize = 1 << 10;
@@ -63,8 +63,8 @@ impl SkyMemory {
 }
 
 /// The width of the squares that are tried first, in pixels and in radians.
-const WIDEST: f64 = 16.0;
-const WIDEST_ANGLE: f64 = 0.5;
+const FIRST: f64 = 16.0;
+const FIRST_ANGLE: f64 = 0.5;
 
 /// That of the last ones, in parts of a cell. Not tuned.
 const NARROWEST: f64 = 0.25;
@@ -105,11 +105,9 @@ impl OfSky<'_, '_> {
         {
             return Arc::clone(list);
         }
-        let list = match square.parent() {
-            Some(around) if square.level() > GATHERED => {
-                Arc::new(of_part(&self.list(&around, occluders), square, occluders))
-            }
-            _ => self.patches.list(square, || gathered(square, occluders)),
+        let list = match square.next_home() {
+            Some(around) => Arc::new(of_part(&self.list(&around, occluders), square, occluders)),
+            None => self.patches.list(square, || gathered(square, occluders)),
         };
         self.memory.lists[place] = Some((*square, Arc::clone(&list)));
         list
@@ -144,8 +142,7 @@ impl OfSky<'_, '_> {
         let patches = self.patches;
         let patch = patches.patch(square, || {
             // Nodes of this square need that list, too.
-            let around = square.parent().filter(|around| around.level() >= GATHERED);
-            let list = self.list(&around.unwrap_or(*square), &occluders);
+            let list = self.list(&square.home(), &occluders);
             let missed = missed(&list, square, &occluders);
             let mut light = |node: &Node| self.node(node, &occluders);
             Patch::new(square, missed, occluders.spheres, &mut light)
@@ -168,11 +165,11 @@ impl OfSky<'_, '_> {
         // Of a whole pixel, few points claim the most.
         let is_whole = self.side > 0.75 * self.pixel;
         let most = self.allowed * if is_whole { OF_WHOLE } else { OF_PARTS };
-        let mut width = (WIDEST * self.pixel * unit).min(WIDEST_ANGLE);
+        let mut width = (FIRST * self.pixel * unit).min(FIRST_ANGLE);
         let [first, last] = both([width, NARROWEST * cell], |angle| {
             Square::level_of(normal, angle)
         });
-        let first = first.max(GATHERED.into());
+        let first = first.max(WIDEST.into());
         for level in first..=last.max(first) {
             let square = Square::around(candidate.sphere, normal, level);
             let at = square.locate(normal);
