@@ -1,4 +1,4 @@
-//! The spheres in a half-space, or in a cone of directions, seen from a point.
+//! The spheres in a cone of directions, seen from a point, or in a ball.
 
 use glam::DVec3;
 
@@ -10,12 +10,6 @@ use crate::model::sphere::Sphere;
 /// Directions from a point, and from all points within some distance of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Beyond {
-    /// Above the plane through the point across a unit normal, or above it lowered by a distance.
-    Plane {
-        point: DVec3,
-        normal: DVec3,
-        lowered: f64,
-    },
     /// Within a ball.
     Ball { center: DVec3, radius: f64 },
     /// Within the angle of this sine and cosine, at most a right one, of a unit vector.
@@ -35,15 +29,6 @@ impl Beyond {
     /// True if a sphere may reach into these directions.
     pub(crate) fn is_reached_by(&self, center: DVec3, radius: f64) -> bool {
         match *self {
-            Self::Plane {
-                point,
-                normal,
-                lowered,
-            } => {
-                let to_center = center - point;
-                let slack = SLACK * (to_center.abs().max_element() + point.abs().max_element());
-                to_center.dot(normal) + radius + lowered + slack > 0.0
-            }
             Self::Ball {
                 center: middle,
                 radius: around,
@@ -88,10 +73,7 @@ impl Beyond {
             };
             let (low, high) = (corner(&boxes.low), corner(&boxes.high));
             let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
-            let may = match *self {
-                Self::Plane { normal, .. } => self.is_reached_by(center, half.dot(normal.abs())),
-                Self::Ball { .. } | Self::Cone { .. } => self.is_reached_by(center, half.length()),
-            };
+            let may = self.is_reached_by(center, half.length());
             tested.may |= u8::from(may) << place;
         }
         tested

@@ -6,12 +6,12 @@ use glam::DVec3;
 
 use super::bodies::Bodies;
 use super::cap::{Cap, NO_SPHERE};
+use super::gather::{Neighborhood, gather};
 use super::point::{Occluders, SurfacePoint};
 use super::visible::{CapSlope, Hidden, sky_share};
 use crate::model::color::Color;
 use crate::model::sky::Sky;
 use crate::patches::light::Shares;
-use crate::search::beyond::Beyond;
 
 /// The light that a white matte surface reflects.
 pub(crate) fn light_of(sky: &Sky, shares: Shares) -> Color {
@@ -27,14 +27,15 @@ pub(crate) fn sky_light(
 ) -> Color {
     let mut bodies = Bodies::default();
     if let Some(occluders) = occluders {
-        let above = Beyond::Plane {
-            point: point.position,
+        let place = Neighborhood {
+            middle: point.position,
+            around: 0.0,
             normal: point.normal,
-            lowered: 0.0,
+            turn: 0.0,
         };
-        occluders.for_each_sphere(point.sphere, &above, |sphere| {
-            bodies.push(sphere, NO_SPHERE);
-        });
+        for index in gather(occluders, point.sphere, &place) {
+            bodies.push(&occluders.spheres[index as usize], NO_SPHERE);
+        }
     }
     let reached = reached(sky, point, &bodies, hidden, &mut |_| {});
     light_of(sky, reached.shares)

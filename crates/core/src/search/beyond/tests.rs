@@ -54,13 +54,4 @@ fn every_sphere_that_a_direction_meets_is_found() {
         assert_eq!(found, expected, "{degrees}");
         assert!(degrees < 1.0 || found.iter().any(|&found| found));
     }
-    let plane = Beyond::Plane {
-        point: apex,
-        normal: axis,
-        lowered: 0.0,
-    };
-    let mut found = vec![false; spheres.len()];
-    hierarchy.for_each_beyond(&spheres, &plane, |index| found[index] = true);
-    let above = |sphere: &Sphere| (sphere.center() - apex).dot(axis) > -sphere.radius();
-    assert_eq!(found, spheres.iter().map(above).collect::<Vec<_>>());
 }
