@@ -26,9 +26,8 @@ pub(crate) struct Scratch {
     hidden: Hidden,
 }
 
-/// The points at which the light of a pixel may be computed: of a sun, and of a sky, where a point costs more.
-const MOST_POINTS_OF_SUN: u64 = 20_000;
-const MOST_POINTS_OF_SKY: u64 = 2_000;
+/// The points at which the light of a pixel may be computed. Not tuned.
+const MOST_POINTS: u64 = 20_000;
 
 /// What is left of a number after rounding.
 const WITHOUT_ROUNDING: f64 = 1.0 - 1e-12;
@@ -150,8 +149,7 @@ impl Soft<'_> {
                             memory: of_suns,
                             hidden,
                         };
-                        let most = MOST_POINTS_OF_SUN;
-                        cells.average(&mut of_sun, cell, candidates, (share, most))
+                        cells.average(&mut of_sun, cell, candidates, (share, MOST_POINTS))
                     }
                     (Some(candidates), None) => {
                         let SoftLight::Sky(sky) = light else { continue };
@@ -167,8 +165,7 @@ impl Soft<'_> {
                             memory: of_skies,
                             hidden,
                         };
-                        let most = MOST_POINTS_OF_SKY;
-                        cells.average(&mut of_sky, cell, candidates, (share, most))
+                        cells.average(&mut of_sky, cell, candidates, (share, MOST_POINTS))
                     }
                 };
                 pixel.value += average.value;
