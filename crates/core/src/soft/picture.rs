@@ -4,6 +4,7 @@ use std::num::NonZeroU32;
 
 use glam::DVec2;
 
+use super::candidate::Candidate;
 use super::cell::Cells;
 use super::light::SoftLight;
 use super::of_sky::{OfSky, SkyMemory};
@@ -26,8 +27,10 @@ pub(crate) struct Scratch {
     hidden: Hidden,
 }
 
-/// The points at which the light of a pixel may be computed. Not tuned.
+/// The points at which the light of a pixel may be computed; those under a sky where a surface is rough, for which no patch
+/// stands. Not tuned.
 const MOST_POINTS: u64 = 20_000;
+const MOST_ROUGH_POINTS: u64 = 2_000;
 
 /// What is left of a number after rounding.
 const WITHOUT_ROUNDING: f64 = 1.0 - 1e-12;
@@ -113,6 +116,14 @@ impl Soft<'_> {
         let cells = cells.get_or_insert_default();
         let before = cells.points;
         let projection = self.view.lens.projection();
+        let is_rough = |candidate: &Candidate| {
+            let material = self.world.material(candidate.sphere);
+            material.roughness.is_some()
+        };
+        let most_of_sky = match &candidates {
+            Some(candidates) if candidates.iter().any(is_rough) => MOST_ROUGH_POINTS,
+            _ => MOST_POINTS,
+        };
         for (number, light) in self.lights.iter().enumerate() {
             let left = (self.lights.len() - number) as f64;
             cells.begin();
@@ -165,7 +176,7 @@ impl Soft<'_> {
                             memory: of_skies,
                             hidden,
                         };
-                        cells.average(&mut of_sky, cell, candidates, (share, MOST_POINTS))
+                        cells.average(&mut of_sky, cell, candidates, (share, most_of_sky))
                     }
                 };
                 pixel.value += average.value;
