@@ -95,7 +95,7 @@ impl Square {
     }
 
     /// The square of a level, at most its own, that it is a part of.
-    pub(crate) fn around_it(&self, level: u8) -> Self {
+    pub(crate) fn ancestor(&self, level: u8) -> Self {
         let finer = self.level - level;
         Self {
             level,
@@ -104,10 +104,10 @@ impl Square {
         }
     }
 
-    /// The square, perhaps one around it, that has a list of the spheres that may hide light from it and its nodes; of a level
-    /// from [`WIDEST`] on.
+    /// The square, perhaps one around it, that has a list of the spheres that may hide light from it and its nodes. Its own level
+    /// is at least [`WIDEST`].
     pub(crate) fn home(&self) -> Self {
-        self.around_it(listed(self.level - 1))
+        self.ancestor(listed(self.level.saturating_sub(1)))
     }
 
     /// The next larger square that has such a list; none of the widest ones.
@@ -234,7 +234,7 @@ mod tests {
             let (middle, chord) = square.extent();
             assert!((middle - normal).length() <= chord * (1.0 + 1e-9));
             let quarter = square.quarter(1, 0);
-            assert_eq!(quarter.around_it(level as u8), square);
+            assert_eq!(quarter.ancestor(level as u8), square);
             let apart = square.normal(DVec2::new(0.25, 0.75)) - quarter.node(1, 1).normal();
             assert!(apart.length() < 1e-15);
         }
@@ -251,7 +251,7 @@ mod tests {
         for row in 0..3 {
             assert_eq!(square.node(row, 2), right.node(row, 0));
         }
-        let parent = right.around_it(3);
+        let parent = right.ancestor(3);
         let quarter = right.place.map(|place| (place % 2) as usize);
         assert_eq!(right.node(0, 0), parent.node(quarter[1], quarter[0]));
         for (row, col) in [(0, 0), (1, 1), (2, 1), (2, 2)] {

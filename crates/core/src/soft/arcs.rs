@@ -99,7 +99,7 @@ impl Arcs {
         self.exposed.clear();
     }
 
-    /// A place for one more covered arc.
+    /// Adds a covered arc.
     fn push(&mut self, [x, y, t, root]: [f64; 4], cap: usize) {
         let lane = self.count % LANES;
         if lane == 0 {

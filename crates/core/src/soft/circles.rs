@@ -84,7 +84,7 @@ impl Circles {
         &mut self,
         circle: (&Cap, &Frame),
         caps: &[Cap],
-        index: usize,
+        index: Option<usize>,
         arcs: &mut Arcs,
     ) -> bool {
         let Self { groups, near, .. } = self;
@@ -101,9 +101,17 @@ impl Group {
     /// touch from inside.
     #[inline(always)]
     fn apart<S: Simd>(&self, simd: S, [x, y, z, cosine, sine]: [f32; 5]) -> f32x8<S> {
-        let product =
-            |of: usize, by: f32| f32x8::from_array(simd, self.0[of]) * f32x8::splat(simd, by);
-        product(0, x) + product(1, y) + product(2, z) + product(3, -cosine) + product(4, sine)
+        self.times(simd, 0, x)
+            + self.times(simd, 1, y)
+            + self.times(simd, 2, z)
+            + self.times(simd, 3, -cosine)
+            + self.times(simd, 4, sine)
+    }
+
+    /// One of the numbers of each cap, times a factor.
+    #[inline(always)]
+    fn times<S: Simd>(&self, simd: S, number: usize, factor: f32) -> f32x8<S> {
+        f32x8::from_array(simd, self.0[number]) * f32x8::splat(simd, factor)
     }
 }
 
@@ -143,7 +151,7 @@ fn find_near<S: Simd>(simd: S, groups: &[Group], cap: &Cap, near: &mut Vec<u32>)
 fn cover_all<S: Simd>(
     simd: S,
     (cap, frame): (&Cap, &Frame),
-    (caps, near, index): (&[Cap], &[u32], usize),
+    (caps, near, index): (&[Cap], &[u32], Option<usize>),
     arcs: &mut Arcs,
 ) -> bool {
     let u = cap.versine;
@@ -176,8 +184,9 @@ fn cover_all<S: Simd>(
         let unsure = (same.to_bitmask() | is_far) & all;
         for lane in set_bits(unsure) {
             let number = numbers[lane] as usize;
-            if number != index {
-                match cap.meeting(&caps[number], index < number) {
+            if Some(number) != index {
+                let is_first = matches!(index, Some(index) if index < number);
+                match cap.meeting(&caps[number], is_first) {
                     Meeting::Apart => {}
                     Meeting::Inside => return false,
                     Meeting::Crossing(crossing) => arcs.cover(&crossing, frame, number),
@@ -238,7 +247,7 @@ mod tests {
             some.iter().for_each(|other| circles.push(other));
             arcs.clear();
             let frame = cap.frame();
-            let is_exposed = circles.expose((cap, &frame), &some, 0, &mut arcs);
+            let is_exposed = circles.expose((cap, &frame), &some, Some(0), &mut arcs);
             let exposed = arcs.exposed();
             counts[usize::from(is_exposed) * (1 + usize::from(!exposed.is_empty()))] += 1;
             for angle in 0..500 {

@@ -89,9 +89,9 @@ impl Hemisphere {
 
     /// Hides the directions within a cap.
     pub(crate) fn hide(&mut self, cap: &Cap) {
-        // Smaller ones fill no cell.
+        // Those that are smaller than the circle through the corners of a cell fill none.
         if let Some(disc) = self.disc(cap, -SLACK)
-            && disc.radius > 0.5 * (1.0 + TALL)
+            && 4.0 * disc.radius * disc.radius > 1.0 + TALL * TALL
         {
             for row in disc.rows() {
                 self.rows[row] |= disc.filled(row);

@@ -93,6 +93,9 @@ mod tests {
             let mut bodies = Bodies::default();
             arrange(&list, &occluders, &mut bodies);
             left_out += spheres.len() - list.len();
+            let others: Vec<u32> = (0..600).filter(|&index| index as usize != own).collect();
+            let mut all = Bodies::default();
+            arrange(&others, &occluders, &mut all);
             for _ in 0..4 {
                 let normal = square.normal(DVec2::new(next(), next()) * 0.5 + 0.5);
                 let point = SurfacePoint {
@@ -105,8 +108,12 @@ mod tests {
                 let by_list = reached(&sky, &point, &bodies, &mut hidden, &mut |_| {})
                     .shares
                     .x;
-                let by_all = sky_light(&sky, &point, Some(&occluders), &mut hidden).x;
+                let by_all = reached(&sky, &point, &all, &mut hidden, &mut |_| {})
+                    .shares
+                    .x;
                 assert!((by_list - by_all).abs() < 1e-11, "{by_list} {by_all}");
+                let at_point = sky_light(&sky, &point, Some(&occluders), &mut hidden).x;
+                assert!((at_point - by_all).abs() < 1e-11, "{at_point} {by_all}");
             }
         }
         assert!(left_out > 60 * 200, "{left_out}");

@@ -169,18 +169,24 @@ impl Hidden {
                 Meeting::Crossing(crossing) => self.arcs.cover_rest(&crossing, &frame, index),
             }
         }
-        self.exposed(&cap, &frame, index, origin)
+        self.exposed(&cap, &frame, Some(index), origin)
     }
 
     /// The integral along the arcs of a disc's circle that no cap hides.
     fn along_disc(&mut self, disc: &Cap) -> DVec3 {
         self.arcs.clear();
-        let border = self.exposed(disc, &disc.frame(), usize::MAX, disc.axis);
+        let border = self.exposed(disc, &disc.frame(), None, disc.axis);
         border.map_or(DVec3::ZERO, |border| border.part)
     }
 
     /// What the arcs of a circle that no cap hides contribute, of which some may be covered; none if there are none.
-    fn exposed(&mut self, cap: &Cap, frame: &Frame, index: usize, origin: DVec3) -> Option<Border> {
+    fn exposed(
+        &mut self,
+        cap: &Cap,
+        frame: &Frame,
+        index: Option<usize>,
+        origin: DVec3,
+    ) -> Option<Border> {
         let is_exposed = self
             .circles
             .expose((cap, frame), &self.caps, index, &mut self.arcs);
