@@ -12,7 +12,7 @@ use crate::numeric::pair::both;
 pub(crate) enum Edge {
     /// Another sphere, in the camera's frame and the units of candidates.
     Sphere { center: DVec3, radius: f64 },
-    /// The own surface; with a highlight, which ends where the disc's middle sets.
+    /// The own surface; with a highlight, which ends suddenly.
     Horizon { has_highlight: bool },
 }
 
@@ -25,6 +25,8 @@ pub(crate) struct Height {
     pub(crate) inner: f64,
     /// Half of their difference, unless the sphere is far from the way to the sun.
     pub(crate) wide: f64,
+    /// Positive where there is a highlight; of a horizon only.
+    pub(crate) highlight: f64,
     /// The radius of the sphere; infinite for a horizon.
     pub(crate) radius: f64,
 }
@@ -36,7 +38,7 @@ impl Height {
         let (height, shadow) = match edge {
             OUTER => (self.outer, self.radius + self.wide),
             INNER => (self.inner, self.radius - self.wide),
-            _ => return [0.5 * (self.outer + self.inner); 2],
+            _ => return [self.highlight; 2],
         };
         // Behind the point of the cone there is no shadow.
         let factor = if shadow > 0.0 {
@@ -48,10 +50,10 @@ impl Height {
     }
 }
 
-/// The edges at which the disc begins to be hidden, at which all of it is, and at which half of it is.
+/// The edges at which the disc begins to be hidden, at which all of it is, and at which a highlight ends.
 const OUTER: usize = 0;
 const INNER: usize = 1;
-const MIDDLE: usize = 2;
+const HIGHLIGHT: usize = 2;
 
 impl Edge {
     /// The height of a point.
@@ -80,6 +82,7 @@ impl Edge {
                     outer: from_point(is_near, near - wide),
                     inner: from_point(is_before, near + wide),
                     wide: wide.abs(),
+                    highlight: 0.0,
                     radius: *radius,
                 }
             }
@@ -89,6 +92,7 @@ impl Edge {
                     outer: height - disc.sine,
                     inner: height + disc.sine,
                     wide: disc.sine,
+                    highlight: place.highlight_height(disc),
                     radius: f64::INFINITY,
                 }
             }
@@ -114,8 +118,8 @@ pub(crate) struct Break {
 /// What is sought on a curve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sought {
-    /// Also where an edge hides half of the disc: a highlight jumps there.
-    pub(crate) has_middle: bool,
+    /// Also where a highlight ends.
+    pub(crate) has_highlight: bool,
     /// True if edges are to be exact, not only known to a part of the penumbra's width.
     pub(crate) is_exact: bool,
     /// A number that tells the edge from others.
@@ -157,7 +161,11 @@ pub(crate) fn add_breaks(
     /// The part of a penumbra's half width to which an edge is known.
     const CLOSE: f64 = 0.01;
     const EXACT: f64 = 1e-9;
-    for edge in OUTER..=if sought.has_middle { MIDDLE } else { INNER } {
+    for edge in OUTER..=if sought.has_highlight {
+        HIGHLIGHT
+    } else {
+        INNER
+    } {
         let knot = |place: f64, there: &Height| {
             let [height, square] = there.over(edge);
             Knot {
@@ -172,7 +180,7 @@ pub(crate) fn add_breaks(
         if knots.iter().all(|knot| knot.height == knots[0].height) {
             continue;
         }
-        let close = if sought.is_exact || edge == MIDDLE {
+        let close = if sought.is_exact || edge == HIGHLIGHT {
             EXACT
         } else {
             CLOSE
@@ -181,7 +189,7 @@ pub(crate) fn add_breaks(
         let mut add = |low: Knot, high: Knot, at: &mut dyn FnMut(f64) -> Knot| {
             breaks.push(Break {
                 place: root(low, high, close, at),
-                of: sought.number * (MIDDLE + 1) + edge,
+                of: sought.number * (HIGHLIGHT + 1) + edge,
             });
         };
         for ends in knots.windows(2) {

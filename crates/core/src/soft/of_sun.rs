@@ -214,7 +214,7 @@ impl Light for OfSun<'_> {
                 &heights,
                 &mut |place| edge.height(&self.place(candidate, &shading, curve.at(place)), &disc),
                 Sought {
-                    has_middle: matches!(
+                    has_highlight: matches!(
                         edge,
                         Edge::Horizon {
                             has_highlight: true

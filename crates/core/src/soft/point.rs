@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::candidate::Candidate;
+use super::cap::Cap;
 use crate::model::camera::Projection;
 use crate::model::sphere::Sphere;
 use crate::search::beyond::Beyond;
@@ -24,6 +25,13 @@ impl SurfacePoint {
     /// The lesser sine of the angle of a direction above the surface and above the plane across the shading normal.
     pub(crate) fn least_height(&self, direction: DVec3) -> f64 {
         self.normal.dot(direction).min(self.shading.dot(direction))
+    }
+
+    /// Positive where a sun with this disc makes a highlight: its middle is above the plane across the shading normal, and some of
+    /// it above the surface.
+    pub(crate) fn highlight_height(&self, disc: &Cap) -> f64 {
+        let above_surface = self.normal.dot(disc.axis) + disc.sine;
+        self.shading.dot(disc.axis).min(above_surface)
     }
 }
 

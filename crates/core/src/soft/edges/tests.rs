@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Break, Edge, Height, KNOTS, Sought, add_breaks};
+use super::{Break, Edge, HIGHLIGHT, Height, KNOTS, Sought, add_breaks};
 use crate::model::color::Color;
 use crate::soft::cap::Cap;
 use crate::soft::point::SurfacePoint;
@@ -98,7 +98,7 @@ fn heights_change_by_no_more_than_the_point_moves() {
 }
 
 const SOUGHT: Sought = Sought {
-    has_middle: false,
+    has_highlight: false,
     is_exact: false,
     number: 0,
 };
@@ -185,7 +185,7 @@ fn the_middle_of_a_disc_is_exact() {
     let knots: [Height; KNOTS] =
         std::array::from_fn(|index| height(index as f64 / (KNOTS - 1) as f64));
     let sought = Sought {
-        has_middle: true,
+        has_highlight: true,
         ..SOUGHT
     };
     let mut breaks = Vec::new();
@@ -195,4 +195,41 @@ fn the_middle_of_a_disc_is_exact() {
         .iter()
         .filter(|one| (0.3 * one.place - 0.1 - middle).abs() < 1e-9);
     assert_eq!((breaks.len(), middle.count()), (3, 1), "{breaks:?}");
+}
+
+#[test]
+fn a_highlight_ends_where_its_surface_or_its_bump_turns_away() {
+    let sun = sun(DVec3::new(0.0, 0.1, 1.0), 0.1);
+    let edge = Edge::Horizon {
+        has_highlight: true,
+    };
+    let tilted = |angle: f64| DVec3::new(0.0, libm::cos(angle), -libm::sin(angle));
+    for tilt in [-0.4, -0.15, -0.05, 0.02, 0.15] {
+        let at = |place: f64| {
+            let angle = place - 0.4;
+            let mut at = on_floor(DVec3::ZERO);
+            (at.normal, at.shading) = (tilted(angle), tilted(angle + tilt));
+            at
+        };
+        let height = |place: f64| edge.height(&at(place), &sun.disc);
+        let knots: [Height; KNOTS] =
+            std::array::from_fn(|index| height(index as f64 / (KNOTS - 1) as f64));
+        let sought = Sought {
+            has_highlight: true,
+            ..SOUGHT
+        };
+        let mut breaks = Vec::new();
+        add_breaks(&knots, &mut { height }, sought, &mut breaks);
+        let mut hidden = Hidden::default();
+        let mut is_lit = |place: f64| {
+            let at = at(place);
+            at.shading.dot(sun.disc.axis) > 0.0 && sun.received(&at, &[], &mut hidden).whole > 0.0
+        };
+        let ends = breaks.iter().filter(|one| one.of == HIGHLIGHT);
+        let ends: Vec<f64> = ends.map(|one| one.place).collect();
+        let [end] = ends[..] else {
+            panic!("{tilt}: {breaks:?}")
+        };
+        assert!(is_lit(end - 1e-4) && !is_lit(end + 1e-4), "{tilt}: {end}");
+    }
 }
