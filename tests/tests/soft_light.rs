@@ -247,6 +247,31 @@ fn averages_agree_with_samples() {
 }
 
 #[test]
+fn outlines_and_several_lights_share_a_tolerance() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/figure.ron");
+    let text = r#"(
+        image: (width: 60, height: 50),
+        lens: Fov(30),
+        camera: Frame(azimuth: 25, elevation: 20),
+        background: 1,
+        sky: 0.7,
+        lights: [Directional(toward: (-0.6, 1, -1.4), attached: Camera, intensity: 0.35, diameter: 10)],
+        materials: { "m": (outline: (width: Units(0.0362), color: 0.02)) },
+        clouds: [(file: "cluster.csv", material: "m", radius: 0.856, value: "shell", color: Category)],
+    )"#;
+    let scene = Scene::parse(text, &file).unwrap();
+    let view = scene.view(1).unwrap();
+    let exposure = scene.exposure(&view);
+    let image = Renderer::new(scene.world()).render(exposure, &to_tolerance(1e-2));
+    for row in 0..50 {
+        for col in 0..60 {
+            let error = image.error(col, row);
+            assert!(error <= 1e-2, "{col}, {row}: {error:e}");
+        }
+    }
+}
+
+#[test]
 fn the_lights_of_a_picture_add_up() {
     let mut world = world(&PILE);
     world.ambient = DVec3::splat(0.1);

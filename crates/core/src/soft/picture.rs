@@ -124,6 +124,12 @@ impl Soft<'_> {
             Some(candidates) if candidates.iter().any(is_rough) => MOST_ROUGH_POINTS,
             _ => MOST_POINTS,
         };
+        // Of the tolerance, what hard light has left for soft light, at least the part that is its own.
+        let of_hard_light = pixels
+            .iter()
+            .map(|pixel| pixel.error.min(Self::SHARE * tolerance));
+        let mut rests: Vec<f64> = of_hard_light.map(|error| tolerance - error).collect();
+        let least = WITHOUT_ROUNDING * (1.0 - Self::SHARE) * tolerance / self.lights.len() as f64;
         for (number, light) in self.lights.iter().enumerate() {
             let left = (self.lights.len() - number) as f64;
             cells.begin();
@@ -136,12 +142,12 @@ impl Soft<'_> {
                 (Some(sun), Some(candidates)) => self.casters(tile, sun, candidates),
                 _ => Vec::new(),
             };
-            for ((col, row), pixel) in tile.pixels().zip(&mut *pixels) {
+            let pixels = tile.pixels().zip(&mut *pixels);
+            for (((col, row), pixel), rest) in pixels.zip(&mut rests) {
                 let key = self.key(col, row);
                 let cell = (self.cell(col, row), projection);
-                // What other light has left of the tolerance.
-                let rest = WITHOUT_ROUNDING * (tolerance - pixel.error);
-                let share = rest.max((1.0 - Self::SHARE) * tolerance) / left;
+                // A light may use up more than its share where it gives up.
+                let share = (WITHOUT_ROUNDING * *rest / left).max(least);
                 let average = match (&candidates, &in_camera) {
                     // Numbers that are too extreme.
                     (None, _) => Integral {
@@ -179,6 +185,7 @@ impl Soft<'_> {
                         cells.average(&mut of_sky, cell, candidates, (share, most_of_sky))
                     }
                 };
+                *rest -= average.error;
                 pixel.value += average.value;
                 pixel.error += average.error;
                 pixel.evidence = pixel.evidence.min(Evidence::Estimate);
