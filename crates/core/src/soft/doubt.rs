@@ -214,6 +214,15 @@ pub(crate) fn of_penumbra(height: &Height, radius: f64, around: f64) -> f64 {
     OF_EDGE * share * (size * size).min(1.0)
 }
 
+/// A bound of what a sphere hides of the light of a sun, of intensity 1, from a part of a surface: the solid angle that it fills,
+/// in parts of the disc's, as if all of it were straight above.
+pub(crate) fn most_hidden(sun: &Sun, extent: &Extent, (center, radius): (DVec3, f64)) -> f64 {
+    let nearest = ((center - extent.middle).length() - extent.around).max(radius);
+    let sine = radius / nearest;
+    // Within a cap of this sine, the integral of cosines is at most π s².
+    std::f64::consts::PI * sine * sine / sun.disc.solid_angle()
+}
+
 /// A shadow that lies between the lines of a cell of some size.
 pub(crate) fn of_speck(height: &Height, radius: f64, around: f64) -> f64 {
     /// Lines are closer to each other than so many times the size of the cell.

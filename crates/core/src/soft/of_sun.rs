@@ -5,7 +5,7 @@ use glam::{DMat3, DVec2};
 use super::candidate::Candidate;
 use super::curve::Curve;
 use super::doubt::{
-    Extent, of_bumps, of_exponent, of_highlight, of_penumbra, of_speck, of_terminator,
+    Extent, most_hidden, of_bumps, of_exponent, of_highlight, of_penumbra, of_speck, of_terminator,
 };
 use super::edges::{Break, Edge, KNOTS, Sought, add_breaks};
 use super::light::sun_light;
@@ -154,6 +154,9 @@ impl Light for OfSun<'_> {
         let shading = self.shading(candidate);
         let (mut doubt, mut missed) = (0.0_f64, 0.0_f64);
         let mut is_narrow = false;
+        let material = self.world.material(candidate.sphere);
+        // Other light may be strong where the sun is nearly hidden by the own surface.
+        let is_plain = material.exponent >= 1.0 && material.highlight.is_none();
         for edge in &self.memory.edges[number] {
             match edge {
                 Edge::Horizon { has_highlight } => {
@@ -162,11 +165,16 @@ impl Light for OfSun<'_> {
                     let exponent = self.world.material(candidate.sphere).exponent;
                     doubt = doubt.max(of_terminator(self.sun, &extent, &shading, exponent));
                 }
-                Edge::Sphere { radius, .. } => {
+                Edge::Sphere { center, radius } => {
                     let height = edge.height(&middle, &self.sun.disc);
                     is_narrow |= height.wide < NARROW * extent.around;
-                    doubt = doubt.max(of_penumbra(&height, *radius, extent.around));
-                    missed = missed.max(of_speck(&height, *radius, extent.around));
+                    let most = if is_plain {
+                        most_hidden(self.sun, &extent, (*center, *radius))
+                    } else {
+                        1.0
+                    };
+                    doubt = doubt.max(of_penumbra(&height, *radius, extent.around).min(most));
+                    missed = missed.max(of_speck(&height, *radius, extent.around).min(most));
                 }
             }
         }
