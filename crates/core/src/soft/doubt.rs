@@ -18,6 +18,8 @@ use crate::search::beyond::Beyond;
 pub(crate) struct Extent {
     pub(crate) middle: DVec3,
     pub(crate) around: f64,
+    /// The same across the ray through its middle, which is much less where a surface is seen at a grazing angle.
+    pub(crate) across: f64,
     /// A bound of the angle between normals in it and that in its middle.
     pub(crate) turn: f64,
     /// The unit vector from its middle toward the eye.
@@ -82,6 +84,7 @@ impl Extent {
         Self {
             middle,
             around,
+            across,
             turn: 2.0 * around / radius,
             to_eye: -axis,
             eye_turn,
@@ -105,6 +108,7 @@ impl Extent {
         Self {
             middle: eye + *world_from_camera * self.middle * scale,
             around: self.around * scale,
+            across: self.across * scale,
             turn: self.turn,
             to_eye: *world_from_camera * self.to_eye,
             eye_turn: self.eye_turn,
@@ -221,6 +225,14 @@ pub(crate) fn most_hidden(sun: &Sun, extent: &Extent, (center, radius): (DVec3, 
     let sine = radius / nearest;
     // Within a cap of this sine, the integral of cosines is at most π s².
     std::f64::consts::PI * sine * sine / sun.disc.solid_angle()
+}
+
+/// About half of the width of the shadow that a sphere casts on a candidate: at least that of the circle in which they cut each
+/// other, if the sphere's center is inside. A shadow that is wider than a cell does not lie between lines: it crosses the sides of
+/// the cell, on which it is looked for.
+pub(crate) fn shadow_half_width(candidate: &Candidate, (center, radius): (DVec3, f64)) -> f64 {
+    let depth = (candidate.radius - (center - candidate.center).length()).clamp(0.0, radius);
+    ((radius - depth) * (radius + depth)).sqrt()
 }
 
 /// A shadow that lies between the lines of a cell of some size.

@@ -6,6 +6,7 @@ use super::candidate::Candidate;
 use super::curve::Curve;
 use super::doubt::{
     Extent, most_hidden, of_bumps, of_exponent, of_highlight, of_penumbra, of_speck, of_terminator,
+    shadow_half_width,
 };
 use super::edges::{Break, Edge, KNOTS, Sought, add_breaks};
 use super::light::sun_light;
@@ -174,7 +175,9 @@ impl Light for OfSun<'_> {
                         1.0
                     };
                     doubt = doubt.max(of_penumbra(&height, *radius, extent.around).min(most));
-                    missed = missed.max(of_speck(&height, *radius, extent.around).min(most));
+                    if shadow_half_width(candidate, (*center, *radius)) < extent.across {
+                        missed = missed.max(of_speck(&height, *radius, extent.around).min(most));
+                    }
                 }
             }
         }
