@@ -53,19 +53,10 @@ fn spheres_hide_no_more_of_a_sun_than_the_bound_says() {
     let mut largest = 0.0_f64;
     for number in 0..2000 {
         let mut vector = || DVec3::new(next(), next(), next());
+        let axis = (DVec3::Y + vector() * 0.3).normalize();
         let sun = Sun {
-            disc: Cap::within(
-                DVec3::Y + vector() * 0.3,
-                0.05 + f64::from(number % 15) * 0.1,
-            ),
+            disc: Cap::within(axis, 0.05 + f64::from(number % 15) * 0.1),
             intensity: DVec3::ONE,
-        };
-        let sun = Sun {
-            disc: Cap {
-                axis: sun.disc.axis.normalize(),
-                ..sun.disc
-            },
-            ..sun
         };
         let extent = around(DVec3::Y);
         let place = SurfacePoint {

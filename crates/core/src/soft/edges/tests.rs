@@ -169,19 +169,12 @@ fn a_narrow_shadow_between_knots_is_found() {
     }
 }
 
-#[test]
-fn the_middle_of_a_disc_is_exact() {
-    let sun = sun(DVec3::new(0.0, 0.1, 1.0), 0.1);
+/// The breaks of a curve on a surface with a highlight, from its points.
+fn breaks_of_horizon(sun: &Sun, at: impl Fn(f64) -> SurfacePoint) -> Vec<Break> {
     let edge = Edge::Horizon {
         has_highlight: true,
     };
-    let height = |place: f64| {
-        let angle = 0.3 * place - 0.1;
-        let normal = DVec3::new(0.0, libm::cos(angle), -libm::sin(angle));
-        let mut at = on_floor(DVec3::ZERO);
-        (at.normal, at.shading) = (normal, normal);
-        edge.height(&at, &sun.disc)
-    };
+    let height = |place: f64| edge.height(&at(place), &sun.disc);
     let knots: [Height; KNOTS] =
         std::array::from_fn(|index| height(index as f64 / (KNOTS - 1) as f64));
     let sought = Sought {
@@ -190,45 +183,46 @@ fn the_middle_of_a_disc_is_exact() {
     };
     let mut breaks = Vec::new();
     add_breaks(&knots, &mut { height }, sought, &mut breaks);
+    breaks
+}
+
+/// A point with normals that are turned by these angles.
+fn turned(normal: f64, shading: f64) -> SurfacePoint {
+    let turned = |angle: f64| DVec3::new(0.0, libm::cos(angle), -libm::sin(angle));
+    SurfacePoint {
+        normal: turned(normal),
+        shading: turned(shading),
+        ..on_floor(DVec3::ZERO)
+    }
+}
+
+#[test]
+fn the_middle_of_a_disc_is_exact() {
+    let sun = sun(DVec3::new(0.0, 0.1, 1.0), 0.1);
+    let angle = |place: f64| 0.3 * place - 0.1;
+    let breaks = breaks_of_horizon(&sun, |place| turned(angle(place), angle(place)));
     let middle = libm::atan(0.1);
-    let middle = breaks
+    let at_middle = breaks
         .iter()
-        .filter(|one| (0.3 * one.place - 0.1 - middle).abs() < 1e-9);
-    assert_eq!((breaks.len(), middle.count()), (3, 1), "{breaks:?}");
+        .filter(|one| (angle(one.place) - middle).abs() < 1e-9);
+    assert_eq!((breaks.len(), at_middle.count()), (3, 1), "{breaks:?}");
 }
 
 #[test]
 fn a_highlight_ends_where_its_surface_or_its_bump_turns_away() {
     let sun = sun(DVec3::new(0.0, 0.1, 1.0), 0.1);
-    let edge = Edge::Horizon {
-        has_highlight: true,
-    };
-    let tilted = |angle: f64| DVec3::new(0.0, libm::cos(angle), -libm::sin(angle));
     for tilt in [-0.4, -0.15, -0.05, 0.02, 0.15] {
-        let at = |place: f64| {
-            let angle = place - 0.4;
-            let mut at = on_floor(DVec3::ZERO);
-            (at.normal, at.shading) = (tilted(angle), tilted(angle + tilt));
-            at
-        };
-        let height = |place: f64| edge.height(&at(place), &sun.disc);
-        let knots: [Height; KNOTS] =
-            std::array::from_fn(|index| height(index as f64 / (KNOTS - 1) as f64));
-        let sought = Sought {
-            has_highlight: true,
-            ..SOUGHT
-        };
-        let mut breaks = Vec::new();
-        add_breaks(&knots, &mut { height }, sought, &mut breaks);
-        let mut hidden = Hidden::default();
-        let mut is_lit = |place: f64| {
-            let at = at(place);
-            at.shading.dot(sun.disc.axis) > 0.0 && sun.received(&at, &[], &mut hidden).whole > 0.0
-        };
+        let at = |place: f64| turned(place - 0.4, place - 0.4 + tilt);
+        let breaks = breaks_of_horizon(&sun, at);
         let ends = breaks.iter().filter(|one| one.of == HIGHLIGHT);
         let ends: Vec<f64> = ends.map(|one| one.place).collect();
         let [end] = ends[..] else {
             panic!("{tilt}: {breaks:?}")
+        };
+        let mut hidden = Hidden::default();
+        let mut is_lit = |place: f64| {
+            let at = at(place);
+            at.shading.dot(sun.disc.axis) > 0.0 && sun.received(&at, &[], &mut hidden).whole > 0.0
         };
         assert!(is_lit(end - 1e-4) && !is_lit(end + 1e-4), "{tilt}: {end}");
     }
