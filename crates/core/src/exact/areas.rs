@@ -125,14 +125,15 @@ impl<'scene> Areas<'scene> {
         areas: &mut Vec<(usize, VisibleArea)>,
     ) {
         let candidates = self.index.indices(tile);
-        let Some(&first) = candidates.first() else {
+        let mut sorted = candidates.clone();
+        sorted.sort_unstable();
+        let Some(&first) = sorted.first() else {
             return;
         };
-        let mut sums = vec![(first, VisibleArea::default()); candidates.len()];
-        for (sum, &candidate) in sums.iter_mut().zip(&candidates) {
+        let mut sums = vec![(first, VisibleArea::default()); sorted.len()];
+        for (sum, &candidate) in sums.iter_mut().zip(&sorted) {
             sum.0 = candidate;
         }
-        sums.sort_unstable_by_key(|(sphere, _)| *sphere);
         let mut sums = Sums(sums);
         if !self.measure_all(tile, &candidates, scratch, &mut sums) {
             // Nothing is known.

@@ -11,6 +11,7 @@ use super::classify::magnitude::is_ball_moderate;
 use super::context::Context;
 use crate::edges::cell::Ball;
 use crate::numeric::bits::set_bits;
+use crate::numeric::order::sort_by_number;
 use crate::picture::tile::Tile;
 use crate::search::view_index::ViewIndex;
 
@@ -161,15 +162,15 @@ fn seen_in(
             is_covered,
         };
     }
-    let mut by_distance: Vec<(f64, u32)> = balls
+    let mut by_distance: Vec<(f64, usize)> = balls
         .iter()
         .map(Ball::begin)
-        .zip(spheres.iter().map(|&sphere| sphere as u32))
+        .zip(spheres.iter().copied())
         .collect();
-    by_distance.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    sort_by_number(&mut by_distance);
     let by_distance = by_distance.into_iter();
     Seen {
-        fewer: Some(by_distance.map(|(_, sphere)| sphere).collect()),
+        fewer: Some(by_distance.map(|(_, sphere)| sphere as u32).collect()),
         is_covered,
     }
 }

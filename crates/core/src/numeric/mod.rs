@@ -8,6 +8,7 @@ pub(crate) mod fused;
 pub(crate) mod jacobi;
 pub(crate) mod kronrod;
 pub(crate) mod lanes;
+pub(crate) mod order;
 pub(crate) mod pair;
 pub(crate) mod polynomial;
 pub(crate) mod power;

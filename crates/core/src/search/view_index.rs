@@ -267,11 +267,7 @@ impl Lists {
             .filter_map(visible)
             .collect();
         let key = |visible: &Visible| (visible.nearest, visible.index);
-        if order.len() < FEWEST_TO_SHARE {
-            order.sort_unstable_by_key(key);
-        } else {
-            order.par_sort_unstable_by_key(key);
-        }
+        order.par_sort_unstable_by_key(key);
         // Of equal spheres the first is seen.
         order.dedup_by(|one, first| {
             let [this, other] = both([&one, &first], |visible| &spheres[visible.index as usize]);

@@ -9,6 +9,7 @@ use super::candidate::Candidate;
 use super::line::{Span, spans};
 use super::seam::Seam;
 use crate::model::camera::Projection;
+use crate::numeric::order::sort_by_number;
 
 /// A height, and whether something begins or ends there that widens with the square root of the distance from it.
 #[derive(Clone, Copy, Debug)]
@@ -129,11 +130,16 @@ pub(crate) fn heights(
         }));
     }
     heights.retain(|height| (v[0]..=v[1]).contains(&height.v));
-    heights.sort_unstable_by(|one, other| one.v.total_cmp(&other.v));
-    heights.dedup_by(|later, height| {
-        let is_same = later.v == height.v;
-        height.is_turn |= is_same && later.is_turn;
-        is_same
-    });
+    let pair = |height: &Height| (height.v, usize::from(height.is_turn));
+    let mut pairs: Vec<(f64, usize)> = heights.iter().map(pair).collect();
+    sort_by_number(&mut pairs);
+    heights.clear();
+    for (v, is_turn) in pairs {
+        let is_turn = is_turn == 1;
+        match heights.last_mut() {
+            Some(last) if last.v == v => last.is_turn |= is_turn,
+            _ => heights.push(Height { v, is_turn }),
+        }
+    }
     heights
 }

@@ -5,6 +5,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::active::Active;
 use super::mask;
 use crate::numeric::lanes::f64x8;
+use crate::numeric::order::sort_by_number;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
@@ -50,9 +51,8 @@ impl HiddenSpheres {
                 }
             }
         }
-        let by_distance = |one: &(f64, usize), other: &(f64, usize)| one.0.total_cmp(&other.0);
-        self.begins.sort_unstable_by(by_distance);
-        self.ends.sort_unstable_by(by_distance);
+        sort_by_number(&mut self.begins);
+        sort_by_number(&mut self.ends);
         self.hidden.clear();
         self.hidden.resize(active.len(), false);
         let mut covered = 0;

@@ -5,6 +5,7 @@ use rayon::slice::ParallelSliceMut;
 
 use crate::model::sphere::Sphere;
 use crate::numeric::lanes::LANES;
+use crate::numeric::order::sort_by_number;
 
 /// Children of a node, and spheres of a group: as many as are computed side by side.
 pub(crate) const WIDTH: usize = LANES;
@@ -128,7 +129,13 @@ fn classes(entries: &[Entry], largest: i32) -> Vec<(i32, usize)> {
             None => classes.push((class, 1)),
         }
     }
-    classes.sort_unstable_by_key(|&(class, count)| (std::cmp::Reverse(count), class));
+    // A class is not negative.
+    let pair = |&(class, count): &(i32, usize)| (-(count as f64), class as usize);
+    let mut pairs: Vec<(f64, usize)> = classes.iter().map(pair).collect();
+    sort_by_number(&mut pairs);
+    for (known, (count, class)) in classes.iter_mut().zip(pairs) {
+        *known = (class as i32, -count as usize);
+    }
     classes
 }
 
