@@ -1,6 +1,7 @@
 //! Light of a sky that all threads and frames have in common.
 
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::light::NodeLight;
@@ -16,6 +17,8 @@ const MOST: usize = 1 << 14;
 /// What is known of the light of a world's sky. Each node and each patch is what its place says, whoever makes it, and when.
 #[derive(Debug)]
 pub(crate) struct Patches {
+    /// A number that no others have, from 1.
+    name: u64,
     shards: [Mutex<Known>; SHARDS],
 }
 
@@ -39,13 +42,20 @@ enum Light {
 
 impl Default for Patches {
     fn default() -> Self {
+        static NEXT_NAME: AtomicU64 = AtomicU64::new(1);
         Self {
+            name: NEXT_NAME.fetch_add(1, Ordering::Relaxed),
             shards: std::array::from_fn(|_| Mutex::default()),
         }
     }
 }
 
 impl Patches {
+    /// A number that tells the world from others: whatever is known of its spheres may be kept with it.
+    pub(crate) fn name(&self) -> u64 {
+        self.name
+    }
+
     fn shard(&self, hash: u64) -> MutexGuard<'_, Known> {
         let shard = &self.shards[(hash >> 32) as usize % SHARDS];
         shard.lock().unwrap_or_else(PoisonError::into_inner)

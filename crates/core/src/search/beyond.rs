@@ -12,6 +12,12 @@ use crate::model::sphere::Sphere;
 pub(crate) enum Beyond {
     /// Within a ball.
     Ball { center: DVec3, radius: f64 },
+    /// Within a ball, but not all of it within the inner one.
+    Shell {
+        center: DVec3,
+        inner: f64,
+        outer: f64,
+    },
     /// Within the angle of this sine and cosine, at most a right one, of a unit vector.
     Cone {
         apex: DVec3,
@@ -35,6 +41,15 @@ impl Beyond {
             } => {
                 let slack = SLACK * (center.abs().max_element() + middle.abs().max_element());
                 (center - middle).length() <= radius + around + slack
+            }
+            Self::Shell {
+                center: middle,
+                inner,
+                outer,
+            } => {
+                let slack = SLACK * (center.abs().max_element() + middle.abs().max_element());
+                let distance = (center - middle).length();
+                distance <= radius + outer + slack && distance + radius + slack >= inner
             }
             Self::Cone {
                 apex,
@@ -86,8 +101,21 @@ impl Hierarchy {
         &self,
         spheres: &[Sphere],
         beyond: &Beyond,
-        mut visit: impl FnMut(usize),
+        visit: &mut dyn FnMut(usize),
     ) {
+        self.any_beyond(spheres, beyond, &mut |index| {
+            visit(index);
+            false
+        });
+    }
+
+    /// Says whether something holds for any of them; none is asked after one for which it holds.
+    pub(crate) fn any_beyond(
+        &self,
+        spheres: &[Sphere],
+        beyond: &Beyond,
+        holds: &mut dyn FnMut(usize) -> bool,
+    ) -> bool {
         self.any(
             |boxes| beyond.boxes(boxes),
             |group| {
@@ -97,13 +125,14 @@ impl Hierarchy {
                     .filter(|&&index| is_sphere(index))
                 {
                     let sphere = &spheres[index as usize];
-                    if beyond.is_reached_by(sphere.center(), sphere.radius()) {
-                        visit(index as usize);
+                    let is_reached = beyond.is_reached_by(sphere.center(), sphere.radius());
+                    if is_reached && holds(index as usize) {
+                        return true;
                     }
                 }
                 false
             },
-        );
+        )
     }
 }
 

@@ -269,7 +269,7 @@ pub(crate) fn of_shadows(
     let mut doubt: f64 = 0.0;
     occluders
         .hierarchy
-        .for_each_beyond(occluders.spheres, &near, |index| {
+        .for_each_beyond(occluders.spheres, &near, &mut |index| {
             if occluders.may_hide(index, sphere) {
                 let other = &occluders.spheres[index];
                 // The part of a long cell that lies about as near to it as its size.
@@ -299,7 +299,7 @@ pub(crate) fn of_small_spheres(
     let own = &occluders.spheres[sphere];
     occluders
         .hierarchy
-        .for_each_beyond(occluders.spheres, &near, |index| {
+        .for_each_beyond(occluders.spheres, &near, &mut |index| {
             let other = &occluders.spheres[index];
             if index != sphere && other != own && other.radius() < NEAR * extent.around {
                 let size = other.radius() / extent.around;

@@ -16,7 +16,7 @@ pub(crate) struct Span {
 }
 
 /// The candidate that a ray meets first, and whether its light is seen.
-fn first(
+pub(super) fn first(
     candidates: &[Candidate],
     u: f64,
     v: f64,

@@ -13,6 +13,7 @@
 //! | `curve.rs`, `rule.rs`, `across.rs`, `strips.rs` | the same along lines, and from lines across it |
 //! | `edges.rs`, `of_sun.rs` | a sun's light in a pixel: the places on a line are found where spheres begin to hide it |
 //! | `hemisphere.rs`, `gather.rs`, `bodies.rs`, `list.rs`, `node.rs`, `of_sky.rs` | a sky's light in a pixel: from `patches`, whose nodes only some spheres hide light from |
+//! | `rays/` | a sky's light in a pixel of a crowd, to loose tolerances |
 //! | `doubt.rs` | changes of light that points of a cell may miss |
 //! | `scene.rs`, `picture.rs` | the averages over pixels, by samples or to a tolerance |
 
@@ -38,6 +39,7 @@ mod of_sky;
 mod of_sun;
 pub(crate) mod picture;
 mod point;
+mod rays;
 mod rectangle;
 mod rule;
 pub(crate) mod scene;

@@ -10,6 +10,7 @@ use super::light::SoftLight;
 use super::of_sky::{OfSky, SkyMemory};
 use super::of_sun::{OfSun, SunMemory, strongest_highlight};
 use super::point::SurfacePoint;
+use super::rays::{RayMemory, SkyPixel};
 use super::rectangle::Integral;
 use super::scene::Soft;
 use super::visible::Hidden;
@@ -24,6 +25,7 @@ pub(crate) struct Scratch {
     cells: Option<Box<Cells>>,
     of_suns: Option<Box<SunMemory>>,
     of_skies: Option<Box<SkyMemory>>,
+    rays: Option<Box<RayMemory>>,
     hidden: Hidden,
 }
 
@@ -109,6 +111,7 @@ impl Soft<'_> {
             cells,
             of_suns,
             of_skies,
+            rays,
             hidden,
         } = scratch;
         let of_suns = of_suns.get_or_insert_default();
@@ -170,6 +173,14 @@ impl Soft<'_> {
                     }
                     (Some(candidates), None) => {
                         let SoftLight::Sky(sky) = light else { continue };
+                        let of_pixel = SkyPixel {
+                            sky,
+                            cell: cell.0,
+                            projection,
+                            key,
+                            tolerance: share,
+                        };
+                        let by_rays = self.by_rays(&of_pixel, candidates, rays, cells);
                         let mut of_sky = OfSky {
                             soft: self,
                             sky,
@@ -182,7 +193,9 @@ impl Soft<'_> {
                             memory: of_skies,
                             hidden,
                         };
-                        cells.average(&mut of_sky, cell, candidates, (share, most_of_sky))
+                        by_rays.unwrap_or_else(|| {
+                            cells.average(&mut of_sky, cell, candidates, (share, most_of_sky))
+                        })
                     }
                 };
                 *rest -= average.error;

@@ -75,7 +75,7 @@ impl Occluders<'_> {
         mut visit: impl FnMut(&Sphere),
     ) {
         self.hierarchy
-            .for_each_beyond(self.spheres, beyond, |index| {
+            .for_each_beyond(self.spheres, beyond, &mut |index| {
                 if self.may_hide(index, but) {
                     visit(&self.spheres[index]);
                 }

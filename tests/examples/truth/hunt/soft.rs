@@ -140,10 +140,14 @@ pub(super) fn soft_bumps(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Dozens of small balls beside each other.
+/// Dozens or hundreds of small balls beside each other.
 pub(super) fn soft_crowds(numbers: &mut Numbers) -> Draft {
     let mut draft = small(Draft::new(numbers, DISTANCE, 1), numbers);
-    let count = numbers.below(250) + 50;
+    let count = if numbers.below(3) == 0 {
+        numbers.below(500) + 300
+    } else {
+        numbers.below(250) + 50
+    };
     let size = 20.0 / libm::cbrt(count as f64);
     for _ in 0..count {
         let center = [(); 3].map(|()| numbers.between(-25.0, 25.0));

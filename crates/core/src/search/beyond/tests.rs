@@ -42,7 +42,7 @@ fn every_sphere_that_a_direction_meets_is_found() {
             cosine,
         };
         let mut found = vec![false; spheres.len()];
-        hierarchy.for_each_beyond(&spheres, &cone, |index| found[index] = true);
+        hierarchy.for_each_beyond(&spheres, &cone, &mut |index| found[index] = true);
         let meets = |sphere: &Sphere| {
             let to_center = sphere.center() - apex;
             let distance = to_center.length();

@@ -7,6 +7,7 @@ pub(crate) mod boxes;
 pub(crate) mod groups;
 pub(crate) mod order;
 
+use glam::DVec3;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 
@@ -118,6 +119,26 @@ impl Hierarchy {
             level: level as u32,
             index: 0,
         })
+    }
+
+    /// The corners of the box around all spheres.
+    pub(crate) fn corners(&self) -> [DVec3; 2] {
+        let mut corners = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        if let Some(root) = self.root() {
+            let boxes = self.boxes(root);
+            let corner = |of: &[[f32; WIDTH]; 3], place: usize| {
+                DVec3::new(
+                    of[0][place].into(),
+                    of[1][place].into(),
+                    of[2][place].into(),
+                )
+            };
+            for place in 0..WIDTH {
+                corners[0] = corners[0].min(corner(&boxes.low, place));
+                corners[1] = corners[1].max(corner(&boxes.high, place));
+            }
+        }
+        corners
     }
 
     /// The boxes of a node.
