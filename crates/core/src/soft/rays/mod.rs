@@ -6,10 +6,11 @@
 //!
 //! # Accuracy
 //! An estimate. The rays of a pixel are copies of a net with independent shifts: the deviation of the copies' means from each
-//! other is that of the pixel from the truth, times the root of their number. With [`FACTOR`] times it no more than 1 of
-//! 3,000,000 pixels of normal deviations would be off by more; the claim is also no less than a part of what half as many rays
-//! claimed, so that copies which agree by chance do not end the search. What no ray meets could fool that: the claim is at
-//! least what [`UNSEEN`] rays carry.
+//! other is that of the pixel from the truth, times the root of their number. The claim is [`FACTOR`] times that of the pixel:
+//! of normal deviations, 1 pixel in 3,000,000 would be off by more. Three things could fool it. Copies may agree by chance, and
+//! end the search: the claim is no less than a part of what fewer rays let expect. All rays may miss what is small: the claim
+//! is at least the light of [`UNSEEN`] rays. A sphere may have a larger part of the pixel than of the places: one of few
+//! places ([`FEW_PLACES`]) claims as much as these may deviate, on all of its part.
 
 mod cube;
 mod means;
@@ -76,8 +77,8 @@ const CROWD: usize = 1 << 8;
 /// The least tolerance, in parts of the brightest light.
 const LEAST: f64 = 4e-3;
 
-/// Spheres whose surroundings a thread keeps.
-const KEPT: usize = 128;
+/// Spheres whose surroundings a thread keeps, each up to some 500 KB. Not tuned: a tile sees some ten.
+const KEPT: usize = 64;
 
 /// What a thread keeps for rays.
 #[derive(Debug)]

@@ -199,9 +199,10 @@ impl Surroundings {
         for axis in 0..3 {
             let direction = ray.direction[axis];
             let corner = self.corners[usize::from(direction > 0.0)][axis];
-            let way = (corner - ray.normal[axis]) / direction;
-            // Along the other axes it is no number, or beyond all.
-            end = end.min(way);
+            // Along an axis that it does not move on it does not leave.
+            if direction != 0.0 {
+                end = end.min((corner - ray.normal[axis]) / direction);
+            }
         }
         end < self.height
     }

@@ -1,6 +1,6 @@
 use std::num::NonZeroU32;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use super::*;
 use crate::model::camera::{Camera, Lens};
@@ -38,6 +38,25 @@ fn crowd(count: usize, middle: DVec3) -> Vec<Sphere> {
     let floor = middle - DVec3::Y * (1e5 + 10.5);
     spheres.push(Sphere::new(floor, 1e5).unwrap());
     spheres
+}
+
+#[test]
+fn rays_along_an_axis_find_what_is_far() {
+    // So many spheres around the first one that those far above are not among its surroundings.
+    let mut spheres = crowd(6000, DVec3::ZERO);
+    spheres.insert(0, Sphere::new(DVec3::Y * 11.0, 0.1).unwrap());
+    spheres.push(Sphere::new(DVec3::new(0.0, 1e4, 0.0), 1.0).unwrap());
+    let occluders = Occluders {
+        spheres: &spheres,
+        hierarchy: &Hierarchy::new(&spheres),
+    };
+    let around = Surroundings::new(0, &occluders);
+    for direction in [Vec3::Y, Vec3::new(-0.0, 1.0, -0.0), Vec3::Z] {
+        let normal = direction;
+        let ray = FromSurface { normal, direction };
+        let stops = around.stops(Level::new(), &ray, 0, &occluders);
+        assert_eq!(stops, direction.y == 1.0, "{direction}");
+    }
 }
 
 #[test]
