@@ -14,7 +14,7 @@ use super::list::{arrange, gathered, missed, of_part};
 use super::node::light_at_node;
 use super::point::{Occluders, SurfacePoint};
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
-use super::rule::integral_along;
+use super::rule::whole_integral;
 use super::scene::Soft;
 use super::sky::{light_of, sky_light};
 use super::visible::Hidden;
@@ -286,14 +286,6 @@ impl Light for OfSky<'_, '_> {
         _breaks: &[Break],
         limit: f64,
     ) -> Along {
-        let mut along = Along::default();
-        let missed = Lit {
-            error: self.brightest(),
-            ..Lit::default()
-        };
-        integral_along(curve, [0.0, 1.0], limit, &mut along, &mut |place| {
-            self.at(candidate, place).unwrap_or(missed)
-        });
-        along
+        whole_integral(self, candidate, curve, limit)
     }
 }

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
+use super::candidate::Candidate;
 use super::curve::Curve;
-use super::rectangle::{Along, Lit};
+use super::rectangle::{Along, Light, Lit};
 
 /// Gauss's rule with 3 nodes from −1 to 1: nodes, their weights, and those in Kronrod's with 7.
 const GAUSS: [[f64; 3]; 3] = [
@@ -22,6 +23,25 @@ const KRONROD: [[f64; 2]; 4] = [
 
 /// The claim of a part of a curve, in parts of the second difference of its nodes. Not tuned.
 const OF_BEND: f64 = 0.06;
+
+/// The integral along all of a curve of light that has no breaks. Where light is not known, anything up to the brightest is
+/// claimed.
+pub(crate) fn whole_integral(
+    light: &mut dyn Light,
+    candidate: &Candidate,
+    curve: &Curve,
+    limit: f64,
+) -> Along {
+    let missed = Lit {
+        error: light.brightest(),
+        ..Lit::default()
+    };
+    let mut along = Along::default();
+    integral_along(curve, [0.0, 1.0], limit, &mut along, &mut |place| {
+        light.at(candidate, place).unwrap_or(missed)
+    });
+    along
+}
 
 /// Adds the integral of light along a part of a curve, and its claim; the limit is for the claim in parts of the length.
 pub(crate) fn integral_along(

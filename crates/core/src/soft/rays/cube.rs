@@ -38,20 +38,18 @@ pub(super) fn cell_of(direction: Vec3) -> usize {
 pub(super) fn for_each_within(axis: DVec3, sine: f64, mut visit: impl FnMut(usize)) {
     for face in 0..6 {
         let [across, along, down] = AXES[face / 2];
-        {
-            let sign = if face % 2 == 0 { 1.0 } else { -1.0 };
-            let forward = sign * axis[across];
-            let Some(cols) = places(axis[along], forward, sine) else {
-                continue;
-            };
-            let Some(rows) = places(axis[down], forward, sine) else {
-                continue;
-            };
-            for row in rows[0]..=rows[1] {
-                let first = (face * SIDE + row) * SIDE;
-                for col in cols[0]..=cols[1] {
-                    visit(first + col);
-                }
+        let sign = if face % 2 == 0 { 1.0 } else { -1.0 };
+        let forward = sign * axis[across];
+        let Some(cols) = places(axis[along], forward, sine) else {
+            continue;
+        };
+        let Some(rows) = places(axis[down], forward, sine) else {
+            continue;
+        };
+        for row in rows[0]..=rows[1] {
+            let first = (face * SIDE + row) * SIDE;
+            for col in cols[0]..=cols[1] {
+                visit(first + col);
             }
         }
     }

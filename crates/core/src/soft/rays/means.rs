@@ -7,7 +7,7 @@ use crate::soft::candidate::Candidate;
 use crate::soft::curve::Curve;
 use crate::soft::edges::Break;
 use crate::soft::rectangle::{Along, Cell, Contents, Light, Lit};
-use crate::soft::rule::integral_along;
+use crate::soft::rule::whole_integral;
 
 /// The mean light of the spheres of a pixel, by their numbers. What is not known of the others is anything up to the brightest
 /// light.
@@ -62,9 +62,6 @@ impl Light for Means<'_> {
         _breaks: &[Break],
         limit: f64,
     ) -> Along {
-        let mut along = Along::default();
-        let lit = self.of(candidate);
-        integral_along(curve, [0.0, 1.0], limit, &mut along, &mut |_| lit);
-        along
+        whole_integral(self, candidate, curve, limit)
     }
 }

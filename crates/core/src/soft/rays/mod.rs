@@ -156,7 +156,7 @@ impl Soft<'_> {
         let mut seen: Vec<Candidate> = candidates.iter().filter(may_see).copied().collect();
         remove_hidden(&mut seen, cell, projection);
         if seen.is_empty()
-            || time(pixel.tolerance / brightest) > time_of_patches(count, pixel.size(&seen))
+            || time_of_rays(pixel.tolerance / brightest) > time_of_patches(count, pixel.size(&seen))
         {
             return None;
         }
@@ -258,7 +258,7 @@ impl Soft<'_> {
 /// The time that rays take for a pixel, in milliseconds of one thread, to a tolerance in parts of the brightest light.
 ///
 /// This and the next one are rough: they are from crowds of 200 to 100,000 spheres, of 1.6 to 20 pixels.
-fn time(tolerance: f64) -> f64 {
+fn time_of_rays(tolerance: f64) -> f64 {
     0.1 + 2.0 * (1e-2 / tolerance).powi(2)
 }
 

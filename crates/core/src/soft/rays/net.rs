@@ -11,6 +11,7 @@ use std::f64::consts::TAU;
 use glam::{Vec2, Vec3};
 
 use crate::model::roughness::PixelKey;
+use crate::model::roughness::noise::hash;
 
 /// The most points of a copy: a power of two.
 pub(super) const MOST: u32 = 8192;
@@ -36,10 +37,10 @@ pub(super) struct Shift([u32; 4]);
 impl Shift {
     /// Those of the copies of a pixel.
     pub(super) fn all(key: PixelKey, copies: usize) -> Vec<Self> {
-        let pixel = mixed(u64::from(key.col) << 32 | u64::from(key.row));
+        let pixel = hash(key.col.into(), key.row.into());
         let mut shifts = Vec::with_capacity(copies);
         for copy in 0..copies as u64 {
-            let (first, second) = (mixed(pixel ^ (2 * copy)), mixed(pixel ^ (2 * copy + 1)));
+            let (first, second) = (hash(pixel, 2 * copy), hash(pixel, 2 * copy + 1));
             let (third, fourth) = (first >> 32, second >> 32);
             shifts.push(Self([
                 first as u32,
@@ -50,15 +51,6 @@ impl Shift {
         }
         shifts
     }
-}
-
-/// All bits of a number in each bit of another one. Source: Steele, Lea and Flood, "Fast splittable pseudorandom number
-/// generators", OOPSLA 2014.
-fn mixed(number: u64) -> u64 {
-    let mut bits = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    bits ^ (bits >> 31)
 }
 
 /// The middle of the places from 0 to 1 that have these bits.

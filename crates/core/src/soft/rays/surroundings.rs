@@ -17,8 +17,8 @@ use crate::soft::point::Occluders;
 /// Larger spheres, in radii of the own one, are asked one by one: single precision does not place their surfaces well.
 const LARGEST: f64 = 1024.0;
 
-/// Spheres are gathered out to where a ray has met as many in the mean, or until they are so many: of 100,000 spheres
-/// as many take a third of the time at 1e-1 that four times as many do, and the same at 1e-2.
+/// Spheres are gathered out to where a ray has met as many in the mean, or until they are so many: of 100,000 spheres,
+/// 4,096 take less than half the time at 1e-1 that 16,384 with a depth of 5 take, and up to 1.3 times as much at 1e-2.
 const DEPTH: f64 = 4.0;
 const MOST: usize = 1 << 12;
 
