@@ -199,6 +199,9 @@ impl Light for OfSun<'_> {
         number: usize,
         breaks: &mut Vec<Break>,
     ) -> bool {
+        if self.memory.edges[number].is_empty() {
+            return true;
+        }
         let shading = self.shading(candidate);
         let disc = self.sun.disc;
         let knots: [SurfacePoint; KNOTS] = std::array::from_fn(|index| {
