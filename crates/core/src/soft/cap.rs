@@ -43,6 +43,11 @@ pub(crate) struct Crossing {
 }
 
 impl Crossing {
+    /// Half of the angle of the covered arc.
+    pub(super) fn half_width(&self) -> f64 {
+        libm::atan2(self.root, self.t)
+    }
+
     /// The vector in the circle's frame that points to the middle of the covered arc.
     #[inline]
     pub(super) fn toward(&self, frame: &Frame) -> DVec2 {

@@ -6,7 +6,7 @@
 //!
 //! | file | contents |
 //! |---|---|
-//! | `cap.rs`, `circles.rs`, `arcs.rs`, `visible.rs` | caps, the arcs of their circles, the integral over what is visible |
+//! | `cap.rs`, `circles.rs`, `arcs.rs`, `lens.rs`, `visible.rs` | caps, the arcs of their circles, the integral over what is visible |
 //! | `point.rs`, `sun.rs`, `sky.rs`, `light.rs` | points, and the light at a point |
 //! | `candidate.rs`, `seam.rs`, `line.rs`, `heights.rs` | what is seen along a line of the picture, and between which heights that changes smoothly |
 //! | `rectangle.rs`, `behind.rs`, `cell.rs` | a pixel or a part of one, the spheres of it that others hide, and the average over it |
@@ -31,6 +31,7 @@ mod edges;
 mod gather;
 mod heights;
 mod hemisphere;
+mod lens;
 mod light;
 mod line;
 mod list;

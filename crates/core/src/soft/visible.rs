@@ -8,6 +8,7 @@ use super::arcs::{Arcs, End};
 use super::bodies::Bodies;
 use super::cap::{Cap, Frame, Meeting};
 use super::circles::Circles;
+use super::lens::left_of;
 use super::point::SurfacePoint;
 use crate::numeric::pair::both;
 
@@ -146,6 +147,16 @@ impl Hidden {
     /// # Accuracy
     /// Points of the border are measured from the middle of the disc, so that small discs lose no digits.
     pub(crate) fn seen_of(&mut self, disc: &Cap) -> DVec3 {
+        if let [cap] = &self.caps[..]
+            && let Some(left) = left_of(disc, cap)
+        {
+            return left;
+        }
+        self.seen_by_arcs_of(disc)
+    }
+
+    /// The same, by the arcs that any number of caps leave.
+    pub(super) fn seen_by_arcs_of(&mut self, disc: &Cap) -> DVec3 {
         self.arrange();
         let mut sum = self.along_disc(disc);
         for index in 0..self.caps.len() {
@@ -248,7 +259,7 @@ impl Border {
 }
 
 /// φ − sin φ.
-fn segment(angle: f64) -> f64 {
+pub(super) fn segment(angle: f64) -> f64 {
     if angle > 0.5 {
         return angle - libm::sin(angle);
     }
