@@ -37,6 +37,11 @@ impl SoftLight {
         }
     }
 
+    /// False if there is no light at all, as in a frame whose keys have put it out.
+    pub(crate) fn is_bright(&self) -> bool {
+        self.brightest() != Color::ZERO
+    }
+
     /// The light that a point reflects toward the eye.
     pub(crate) fn at(
         &self,

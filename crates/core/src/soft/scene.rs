@@ -35,7 +35,7 @@ impl<'scene> Soft<'scene> {
     /// The share of a tolerance that all other light has. What it leaves is for soft light.
     pub(crate) const SHARE: f64 = 0.5;
 
-    /// The soft light of a world in a view, by samples or to a tolerance; none if the world has no soft light.
+    /// The soft light of a world in a view, by samples or to a tolerance; none if no soft light shines.
     pub(crate) fn new(
         world: &'scene World,
         view: &View,
@@ -50,7 +50,7 @@ impl<'scene> Soft<'scene> {
         let lights = suns
             .map(SoftLight::sun)
             .chain(index.visibility.sky().map(SoftLight::Sky));
-        let lights: Vec<SoftLight> = lights.collect();
+        let lights: Vec<SoftLight> = lights.filter(SoftLight::is_bright).collect();
         (!lights.is_empty()).then(|| Self {
             world,
             view: *view,

@@ -277,3 +277,38 @@ fn tables_with_faults_are_refused_at_their_place() {
         "{error}"
     );
 }
+
+/// Soft light takes longer than hard light: few spheres have it, and stills only.
+#[test]
+fn few_spheres_are_in_soft_light() {
+    let folder = Folder::new("soft");
+    for (count, turntable, is_soft) in [
+        (1, None, true),
+        (200, None, true),
+        (1, Some(8), false),
+        (201, None, false),
+    ] {
+        let rows = (0..count).map(|row| format!("{row},0,0\n"));
+        let path = folder.write("a.csv", format!("x,y,z\n{}", rows.collect::<String>()));
+        let figure = Figure {
+            turntable,
+            ..Figure::default()
+        };
+        let scene = Scene::load_figure(&path, &figure, &[], &|_| {}).unwrap();
+        let mut world = scene.world().clone();
+        assert_eq!(world.sky.is_some(), is_soft, "{count} {turntable:?}");
+        assert_eq!(world.shadows, is_soft);
+        // Where nothing is hidden, white is not clipped.
+        let mut brightest = world.ambient;
+        brightest += world
+            .sky
+            .take()
+            .map_or(marbles_core::Color::ZERO, |sky| sky.above());
+        brightest += world
+            .lights
+            .iter()
+            .map(marbles_core::Light::intensity)
+            .sum::<marbles_core::Color>();
+        assert!(brightest.max_element() <= 1.0 + 1e-12, "{brightest}");
+    }
+}

@@ -27,6 +27,28 @@ const FILL: f64 = 0.9;
 /// The color of spheres that the table gives none.
 const PLAIN: &str = "#7fb2dd";
 
+/// The most spheres that are shown in soft light, which takes longer than hard light: they take a few seconds.
+const MOST_IN_SOFT_LIGHT: usize = 200;
+/// The light of a figure of few spheres. White surfaces are not brighter than white.
+const SOFT_LIGHT: &str = "    // Light from a sky, and from a lamp as large as a window, which moves with the camera: x is right, y up, z forward.
+    ambient: 0.1, // light that nothing hides
+    sky: 0.5, // little of it reaches crevices
+    shadows: true, // with `false`, spheres hide no light from each other
+    lights: [
+        Directional(name: \"key\", toward: (-0.8, 1, -1.3), diameter: 10, attached: Camera, intensity: 0.4),
+    ],
+";
+/// The light of other figures.
+const HARD_LIGHT: &str = "    // Light from everywhere, and two lights that move with the camera: x is right, y up, z forward.
+    ambient: 0.35,
+    shadows: false, // `true` darkens what other spheres hide from the lights
+    // sky: 0.8, // with `shadows: true` and less of other light: little of it reaches crevices; takes longer
+    lights: [
+        Directional(name: \"key\", toward: (-1, 1.2, -1.2), attached: Camera, intensity: 0.5),
+        Directional(name: \"fill\", toward: (1, 0.3, -1), attached: Camera, intensity: 0.15),
+    ],
+";
+
 /// The camera of a scene that looks from there.
 pub(super) fn camera(view: ViewAngle) -> String {
     let ViewAngle { azimuth, elevation } = view;
@@ -58,6 +80,8 @@ pub(super) fn scene(
             "    // animation: Turntable(frames: 120), // the camera goes around once\n".to_owned()
         }
     };
+    let is_soft = (1..=MOST_IN_SOFT_LIGHT).contains(&contents.spheres.len()) && !is_turntable;
+    let light = if is_soft { SOFT_LIGHT } else { HARD_LIGHT };
     let material = material(contents, half, (width, height));
     let cloud = cloud(contents, name);
     format!(
@@ -67,15 +91,7 @@ pub(super) fn scene(
     camera: {camera}, // degrees; everything is in the picture
     background: 1, // white; `marbles render --transparent` leaves it out
 
-    // Light from everywhere, and two lights that move with the camera: x is right, y up, z forward.
-    ambient: 0.35,
-    shadows: false, // `true` darkens what other spheres hide from the lights
-    // sky: 0.8, // with `shadows: true` and less of other light: little of it reaches crevices; takes longer
-    lights: [
-        Directional(name: \"key\", toward: (-1, 1.2, -1.2), attached: Camera, intensity: 0.5),
-        Directional(name: \"fill\", toward: (1, 0.3, -1), attached: Camera, intensity: 0.15),
-    ],
-    materials: {{
+{light}    materials: {{
         {material}
     }},
     clouds: [(
