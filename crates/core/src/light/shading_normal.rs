@@ -31,10 +31,13 @@ impl ShadingNormal {
     }
 
     /// The shading normal at a normal, in the world's frame.
-    pub(crate) fn of(&self, normal: DVec3) -> DVec3 {
+    pub(crate) fn of(&self, normal: DVec3, noise: &mut Option<Box<NoiseCells>>) -> DVec3 {
         match self {
             Self::Smooth => normal,
-            Self::Bumpy(bumps) => bumps.perturb(normal),
+            Self::Bumpy(bumps) => {
+                let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
+                bumps.perturb(normal, noise)
+            }
             Self::Factors(factors) => (normal * factors).normalize(),
         }
     }

@@ -21,6 +21,7 @@ use super::visible::Hidden;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
+use crate::model::roughness::noise::NoiseCells;
 use crate::model::sky::Sky;
 use crate::numeric::pair::both;
 use crate::patches::known::Patches;
@@ -40,6 +41,7 @@ pub(crate) struct SkyMemory {
     /// The spheres of a square's list side by side.
     arranged: Option<Square>,
     bodies: Bodies,
+    noise: Option<Box<NoiseCells>>,
 }
 
 impl Default for SkyMemory {
@@ -49,6 +51,7 @@ impl Default for SkyMemory {
             lists: vec![None; KNOWN_LISTS],
             arranged: None,
             bodies: Bodies::default(),
+            noise: None,
         }
     }
 }
@@ -216,7 +219,10 @@ impl OfSky<'_, '_> {
         let ray = self.soft.ray(place);
         let world = self.soft.world;
         let hit = world.spheres()[candidate.sphere].hit_from_viewpoint(&ray)?;
-        let point: SurfacePoint = self.soft.point(candidate.sphere, &ray, &hit, self.key)?;
+        let noise = &mut self.memory.noise;
+        let point: SurfacePoint = self
+            .soft
+            .point(candidate.sphere, &ray, &hit, self.key, noise)?;
         let occluders = self.soft.occluders();
         let light = sky_light(self.sky, &point, occluders.as_ref(), self.hidden);
         Some(Lit {

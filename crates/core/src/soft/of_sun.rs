@@ -1,5 +1,7 @@
 //! The light of a sun in one pixel.
 
+use std::cell::RefCell;
+
 use glam::{DMat3, DVec2};
 
 use super::candidate::Candidate;
@@ -19,6 +21,7 @@ use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
+use crate::model::roughness::noise::NoiseCells;
 use crate::model::world::World;
 
 /// What a thread keeps for suns.
@@ -26,6 +29,7 @@ use crate::model::world::World;
 pub(crate) struct SunMemory {
     /// For each candidate of a cell.
     edges: Vec<Vec<Edge>>,
+    noise: RefCell<Option<Box<NoiseCells>>>,
 }
 
 /// The light of a sun in one pixel, in the camera's frame.
@@ -58,7 +62,7 @@ impl OfSun<'_> {
         let mut place = candidate.surface_point(at.x, at.y, self.projection);
         if !shading.is_smooth() {
             let normal = *self.world_from_camera * place.normal;
-            let rough = shading.of(normal);
+            let rough = shading.of(normal, &mut self.memory.noise.borrow_mut());
             place.shading = self.world_from_camera.transpose() * rough;
         }
         place

@@ -15,6 +15,7 @@ use super::rectangle::Integral;
 use super::scene::Soft;
 use super::visible::Hidden;
 use crate::model::color::Color;
+use crate::model::roughness::noise::NoiseCells;
 use crate::picture::pixel::{Evidence, Method, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 
@@ -27,6 +28,8 @@ pub(crate) struct Scratch {
     of_skies: Option<Box<SkyMemory>>,
     rays: Option<Box<RayMemory>>,
     hidden: Hidden,
+    /// None before the first rough sample.
+    noise: Option<Box<NoiseCells>>,
 }
 
 /// The points at which the light of a pixel may be computed; those under a sky where a surface is rough, for which no patch
@@ -81,7 +84,7 @@ impl Soft<'_> {
                 });
                 let light = match self.index.nearest(tile, &ray) {
                     Some((sphere, hit)) if !is_dark && !self.is_outline(sphere, &ray, &hit) => {
-                        let point = self.point(sphere, &ray, &hit, key);
+                        let point = self.point(sphere, &ray, &hit, key, &mut scratch.noise);
                         point.map(|point| self.light_at(&point, &mut scratch.hidden))
                     }
                     _ => None,
@@ -113,6 +116,7 @@ impl Soft<'_> {
             of_skies,
             rays,
             hidden,
+            ..
         } = scratch;
         let of_suns = of_suns.get_or_insert_default();
         let of_skies = of_skies.get_or_insert_default();

@@ -14,6 +14,7 @@ use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::model::ray::Ray;
 use crate::model::roughness::PixelKey;
+use crate::model::roughness::noise::NoiseCells;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::pixel::Method;
@@ -87,12 +88,13 @@ impl<'scene> Soft<'scene> {
         ray: &Ray,
         hit: &Hit,
         key: PixelKey,
+        noise: &mut Option<Box<NoiseCells>>,
     ) -> Option<SurfacePoint> {
         if hit.inner_side {
             return None;
         }
         let normal = hit.normal;
-        let shading = ShadingNormal::new(self.world, sphere, key).of(normal);
+        let shading = ShadingNormal::new(self.world, sphere, key).of(normal, noise);
         Some(SurfacePoint {
             position: ray.at(hit.t),
             normal,

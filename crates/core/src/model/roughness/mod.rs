@@ -13,6 +13,7 @@ pub(crate) mod noise;
 use fearless_simd::Simd;
 use glam::DVec3;
 
+#[cfg(test)]
 use self::noise::Cell;
 use self::noise::{NoiseCells, hash, spread};
 use super::material::{Grain, Roughness};
@@ -42,7 +43,7 @@ impl Roughness {
         pixel: PixelKey,
     ) -> DVec3 {
         match self.bumps(radius, sphere) {
-            Some(bumps) => bumps.perturb(normal),
+            Some(bumps) => bumps.perturb_alone(normal),
             None => {
                 let scaled = normal * self.pixel_factors(sphere, pixel);
                 DVec3::from_array(unit(scaled.to_array()))
@@ -81,8 +82,17 @@ pub(crate) struct Bumps {
 }
 
 impl Bumps {
-    /// The shading normal, unit, at the point with the outward normal `normal`.
-    pub(crate) fn perturb(&self, normal: DVec3) -> DVec3 {
+    /// The shading normal, unit, at the point with the outward normal `normal`; the values of cells are kept in `cells`.
+    pub(crate) fn perturb(&self, normal: DVec3, cells: &mut NoiseCells) -> DVec3 {
+        let normal = normal.to_array();
+        let (nearest, offset) = self.place(normal);
+        let draw = cells.cell(self.key, nearest).blend(offset);
+        DVec3::from_array(unit(self.tilt(normal, draw)))
+    }
+
+    /// The same without a table of cells: what those with one are tested against.
+    #[cfg(test)]
+    pub(crate) fn perturb_alone(&self, normal: DVec3) -> DVec3 {
         let normal = normal.to_array();
         let (nearest, offset) = self.place(normal);
         let draw = Cell::new(self.key, nearest.map(|part| part as i64)).blend(offset);

@@ -40,6 +40,7 @@ use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
+use crate::model::roughness::noise::NoiseCells;
 use crate::model::sky::Sky;
 use crate::patches::light::Shares;
 
@@ -90,6 +91,7 @@ pub(crate) struct RayMemory {
     kept: Vec<Option<(usize, Arc<Surroundings>)>>,
     sums: Vec<Sums>,
     means: Vec<(usize, Lit)>,
+    noise: Option<Box<NoiseCells>>,
 }
 
 impl Default for RayMemory {
@@ -101,6 +103,7 @@ impl Default for RayMemory {
             kept: vec![None; KEPT],
             sums: Vec::new(),
             means: Vec::new(),
+            noise: None,
         }
     }
 }
@@ -225,7 +228,8 @@ impl Soft<'_> {
         let candidate = &seen[place];
         let point = candidate.surface_point(u, v, pixel.projection);
         let normal = self.view.camera.world_from_camera * point.normal;
-        let shading = ShadingNormal::new(self.world, candidate.sphere, pixel.key).of(normal);
+        let shading = ShadingNormal::new(self.world, candidate.sphere, pixel.key)
+            .of(normal, &mut memory.noise);
         let frame = Cap::below(-shading).frame();
         let axes = Mat3::from_cols(frame.x.as_vec3(), frame.y.as_vec3(), shading.as_vec3());
         let normal = normal.as_vec3();
