@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::bodies::Bodies;
 use super::candidate::Candidate;
@@ -16,14 +16,13 @@ use super::point::{Occluders, SurfacePoint};
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
 use super::rule::whole_integral;
 use super::scene::Soft;
-use super::sky::{light_of, sky_light};
+use super::sky::{light_of, reached};
 use super::visible::Hidden;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::sky::Sky;
-use crate::numeric::pair::both;
 use crate::patches::known::Patches;
 use crate::patches::light::{NodeLight, Shares};
 use crate::patches::patch::Patch;
@@ -116,16 +115,21 @@ impl OfSky<'_, '_> {
         list
     }
 
+    /// Puts the spheres that may hide light from a square that has a list side by side.
+    fn arrange(&mut self, home: Square, occluders: &Occluders<'_>) {
+        if self.memory.arranged != Some(home) {
+            let list = self.list(&home, occluders);
+            arrange(&list, occluders, &mut self.memory.bodies);
+            self.memory.arranged = Some(home);
+        }
+    }
+
     /// The light at a node.
     fn node(&mut self, node: &Node, occluders: &Occluders<'_>) -> NodeLight {
         let patches = self.patches;
         patches.node(node, || {
             let home = node.home();
-            if self.memory.arranged != Some(home) {
-                let list = self.list(&home, occluders);
-                arrange(&list, occluders, &mut self.memory.bodies);
-                self.memory.arranged = Some(home);
-            }
+            self.arrange(home, occluders);
             let at = (home.sphere as usize, node.normal());
             let bodies = &self.memory.bodies;
             light_at_node(self.sky, at, (bodies, occluders.spheres), self.hidden)
@@ -154,25 +158,34 @@ impl OfSky<'_, '_> {
         Some(patch)
     }
 
-    /// The light of a smooth surface at a place, by a patch that claims little enough, or is small enough.
-    ///
-    /// Where light has an edge, a patch claims much in a part of the cell as wide as its square.
-    fn of_patches(&mut self, candidate: &Candidate, place: DVec2) -> Option<(Shares, f64)> {
+    /// The normal at a place in the world's frame, and the angle that the unit of cells spans there, seen from the center.
+    fn normal_and_unit(&self, candidate: &Candidate, place: DVec2) -> (DVec3, f64) {
         let point = candidate.surface_point(place.x, place.y, self.projection);
         let unit = match self.projection {
             Projection::Central => point.position.z / candidate.radius,
             Projection::Parallel => 1.0 / candidate.radius,
         };
         let normal = self.soft.view.camera.world_from_camera * point.normal;
+        (normal, unit)
+    }
+
+    /// The width of the squares that are tried first, in radians.
+    fn first_width(&self, unit: f64) -> f64 {
+        (FIRST * self.pixel * unit).min(FIRST_ANGLE)
+    }
+
+    /// The light of a smooth surface at a place, by a patch that claims little enough, or is small enough.
+    ///
+    /// Where light has an edge, a patch claims much in a part of the cell as wide as its square.
+    fn of_patches(&mut self, candidate: &Candidate, place: DVec2) -> Option<(Shares, f64)> {
+        let (normal, unit) = self.normal_and_unit(candidate, place);
         let cell = self.side * unit;
         // Of a whole pixel, few points claim the most.
         let is_whole = self.side > 0.75 * self.pixel;
         let most = self.allowed * if is_whole { OF_WHOLE } else { OF_PARTS };
-        let mut width = (FIRST * self.pixel * unit).min(FIRST_ANGLE);
-        let [first, last] = both([width, NARROWEST * cell], |angle| {
-            Square::level_of(normal, angle)
-        });
-        let first = first.max(WIDEST.into());
+        let mut width = self.first_width(unit);
+        let first = Square::level_of(normal, width).max(WIDEST.into());
+        let last = Square::level_of(normal, NARROWEST * cell);
         for level in first..=last.max(first) {
             let square = Square::around(candidate.sphere, normal, level);
             let at = square.locate(normal);
@@ -214,7 +227,7 @@ impl OfSky<'_, '_> {
         }
     }
 
-    /// The light at a place from the caps of all spheres.
+    /// The light at a place, from the caps of all spheres that may hide some of it.
     fn exactly(&mut self, candidate: &Candidate, place: DVec2) -> Option<Lit> {
         let ray = self.soft.ray(place);
         let world = self.soft.world;
@@ -223,10 +236,22 @@ impl OfSky<'_, '_> {
         let point: SurfacePoint = self
             .soft
             .point(candidate.sphere, &ray, &hit, self.key, noise)?;
-        let occluders = self.soft.occluders();
-        let light = sky_light(self.sky, &point, occluders.as_ref(), self.hidden);
+        match self.soft.occluders() {
+            Some(occluders) => {
+                let (normal, unit) = self.normal_and_unit(candidate, place);
+                let level = Square::level_of(normal, self.first_width(unit)).max(WIDEST.into());
+                let square = Square::around(candidate.sphere, normal, level);
+                self.arrange(square.home(), &occluders);
+            }
+            None => {
+                self.memory.bodies.clear();
+                self.memory.arranged = None;
+            }
+        }
+        let bodies = &self.memory.bodies;
+        let reached = reached(self.sky, &point, bodies, self.hidden, &mut |_| {});
         Some(Lit {
-            light: world.albedo(candidate.sphere) * light,
+            light: world.albedo(candidate.sphere) * light_of(self.sky, reached.shares),
             error: 0.0,
         })
     }
