@@ -34,8 +34,8 @@ pub(crate) struct Scratch {
 
 /// The points at which the light of a pixel may be computed; those under a sky where a surface is rough, for which no patch
 /// stands. Not tuned.
-const MOST_POINTS: u64 = 20_000;
-const MOST_ROUGH_POINTS: u64 = 2_000;
+const MOST_POINTS: u64 = 100_000;
+const MOST_ROUGH_POINTS: u64 = 20_000;
 
 /// What is left of a number after rounding.
 const WITHOUT_ROUNDING: f64 = 1.0 - 1e-12;
