@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use marbles_core::{
-    Angle, Camera, Color, Grain, Highlight, Image, Light, Material, Outline, OutlineWidth,
-    Roughness, Sphere, World,
+    Angle, Camera, Color, DirectionalLight, Grain, Highlight, Image, Light, Material, Outline,
+    OutlineWidth, Roughness, Sky, Sphere, World,
 };
 
 use crate::studio::{exact_picture, looking_forward, picture};
@@ -44,8 +44,24 @@ fn everything() -> World {
     world
 }
 
-fn with_threads(threads: usize, tolerance: Option<f64>) -> Image {
-    let mut view = looking_forward(93, 71, 90.0);
+/// The same world with a sun in place of one light, and a sky.
+fn in_soft_light() -> World {
+    let mut world = everything();
+    let toward = DVec3::new(-1.0, 1.0, -1.0);
+    let sun = DirectionalLight::new(toward, Color::splat(0.5)).unwrap();
+    world.lights[0] = sun.with_diameter(0.1).unwrap().into();
+    let (blue, grey) = (Color::new(0.1, 0.2, 0.4), Color::splat(0.1));
+    world.sky = Some(Sky::in_halves(blue, grey, DVec3::Y).unwrap());
+    world
+}
+
+fn with_threads(
+    world: &World,
+    (width, height): (u32, u32),
+    threads: usize,
+    tolerance: Option<f64>,
+) -> Image {
+    let mut view = looking_forward(width, height, 90.0);
     let degrees = Angle::from_degrees;
     view.camera = Camera::free(DVec3::ZERO, degrees(3.0), degrees(-2.0), degrees(25.0));
     let pool = rayon::ThreadPoolBuilder::new()
@@ -53,17 +69,20 @@ fn with_threads(threads: usize, tolerance: Option<f64>) -> Image {
         .build()
         .unwrap();
     pool.install(|| match tolerance {
-        Some(tolerance) => exact_picture(&everything(), &view, tolerance, true),
-        None => picture(&everything(), &view, 3, true),
+        Some(tolerance) => exact_picture(world, &view, tolerance, true),
+        None => picture(world, &view, 3, true),
     })
 }
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    for tolerance in [None, Some(1e-2)] {
-        let one = with_threads(1, tolerance);
-        assert!(one.summary().largest_error > 0.0);
-        assert_eq!(one, with_threads(2, tolerance));
-        assert_eq!(one, with_threads(7, tolerance));
+    for (world, size) in [(everything(), (93, 71)), (in_soft_light(), (43, 31))] {
+        for tolerance in [None, Some(1e-2)] {
+            let picture = |threads| with_threads(&world, size, threads, tolerance);
+            let one = picture(1);
+            assert!(one.summary().largest_error > 0.0);
+            assert_eq!(one, picture(2));
+            assert_eq!(one, picture(7));
+        }
     }
 }

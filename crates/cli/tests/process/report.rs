@@ -38,6 +38,7 @@ fn exit_codes_tell_what_happened() {
         ("ball.ron", 0, ""),
         ("ball.ron --frame 7 --size 3x2 --threads 1", 0, ""),
         ("ball.ron --csv new/a.csv --plot new/a.svg", 0, ""),
+        ("ball.ron --set lights[0].diameter=5 --set sky=0.1", 0, ""),
         (
             "ball.ron --csv ball.ron/a.csv",
             1,

@@ -213,6 +213,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
+    use crate::numeric::lanes::tests::levels;
 
     /// Caps of all sizes, some of them equal, some nearly opposite to others.
     fn caps() -> Vec<Cap> {
@@ -249,6 +250,16 @@ mod tests {
             let frame = cap.frame();
             let is_exposed = circles.expose((cap, &frame), &some, Some(0), &mut arcs);
             let exposed = arcs.exposed();
+            // Narrower vectors find the same bits.
+            for level in levels() {
+                let mut narrow = Circles {
+                    level,
+                    ..circles.clone()
+                };
+                let mut others = Arcs::default();
+                narrow.expose((cap, &frame), &some, Some(0), &mut others);
+                assert_eq!(format!("{exposed:?}"), format!("{:?}", others.exposed()));
+            }
             counts[usize::from(is_exposed) * (1 + usize::from(!exposed.is_empty()))] += 1;
             for angle in 0..500 {
                 let (sine, cosine) = libm::sincos(f64::from(angle));
