@@ -126,8 +126,10 @@ pub(crate) struct Sought {
     pub(crate) number: usize,
 }
 
-/// The places from 0 to 1 at which heights are computed before others are sought between them.
+/// The places from 0 to 1, evenly apart, at which heights are computed before others are sought between them: on most curves, and
+/// on those that turn around a large part of their sphere.
 pub(crate) const KNOTS: usize = 5;
+pub(crate) const MOST_KNOTS: usize = 2 * KNOTS - 1;
 
 /// Steps that find where a height is 0.
 const STEPS: u32 = 40;
@@ -153,7 +155,7 @@ impl Knot {
 ///
 /// Heights bend little between knots; where one may turn before it reaches 0, its turn is sought.
 pub(crate) fn add_breaks(
-    knots: &[Height; KNOTS],
+    knots: &[Height],
     height: &mut dyn FnMut(f64) -> Height,
     sought: Sought,
     breaks: &mut Vec<Break>,
@@ -175,8 +177,12 @@ pub(crate) fn add_breaks(
                 wide: there.wide,
             }
         };
-        let knots: [Knot; KNOTS] =
-            std::array::from_fn(|index| knot(index as f64 / (KNOTS - 1) as f64, &knots[index]));
+        let last_knot = knots.len() - 1;
+        let mut of_edge = [knot(0.0, &knots[0]); MOST_KNOTS];
+        for (index, there) in knots.iter().enumerate() {
+            of_edge[index] = knot(index as f64 / last_knot as f64, there);
+        }
+        let knots = &of_edge[..knots.len()];
         if knots.iter().all(|knot| knot.height == knots[0].height) {
             continue;
         }
@@ -199,9 +205,13 @@ pub(crate) fn add_breaks(
         }
         let mut last = f64::NEG_INFINITY;
         for near in knots.windows(3) {
-            let below = near.iter().filter(|knot| knot.is_below()).count();
-            if (below == 0 || below == near.len())
-                && let Some([low, there, high]) = turn([near[0], near[1], near[2]], last, &mut at)
+            // Between places on different sides something was found already.
+            let is_alike = |other: &Knot| other.is_below() == near[1].is_below();
+            let [from, to] = both([near[0], near[2]], |end| {
+                if is_alike(&end) { end } else { near[1] }.place
+            });
+            if let Some([low, there, high]) =
+                turn([near[0], near[1], near[2]], [from.max(last), to], &mut at)
             {
                 add(low, there, &mut at);
                 add(there, high, &mut at);
@@ -213,11 +223,12 @@ pub(crate) fn add_breaks(
     }
 }
 
-/// The turn of a height between three places, if it is on the other side of 0 than they are and above `least`, and two places
-/// beside it. It is sought by parabolas, through places that are closer if it may be much nearer to 0 than they are.
+/// The turn of a height between three places, if it is on the other side of 0 than the middle one and within an interval whose
+/// ends are on the side of that one, and two places beside it. It is sought by parabolas, through places that are closer if it
+/// may be much nearer to 0 than they are.
 fn turn(
     [mut before, mut middle, mut after]: [Knot; 3],
-    least: f64,
+    [from, to]: [f64; 2],
     at: &mut dyn FnMut(f64) -> Knot,
 ) -> Option<[Knot; 3]> {
     const STEPS: u32 = 8;
@@ -235,7 +246,8 @@ fn turn(
         let b = low.1 - c * low.0;
         let place = middle.place - 0.5 * b / c;
         let is_toward_zero = c * middle.height > 0.0;
-        if !(is_toward_zero && place > before.place.max(least) && place < after.place) {
+        let is_between = place > before.place.max(from) && place < after.place.min(to);
+        if !(is_toward_zero && is_between) {
             return None;
         }
         let there = at(place);
@@ -257,7 +269,8 @@ fn turn(
         }
         let [low, high] = both([before, after], |one| at(0.5 * (one.place + middle.place)));
         for found in [low, high] {
-            if found.is_below() != middle.is_below() {
+            let is_between = found.place > from && found.place < to;
+            if is_between && found.is_below() != middle.is_below() {
                 return Some(if found.place < middle.place {
                     [before, found, middle]
                 } else {

@@ -10,7 +10,7 @@ use super::doubt::{
     Extent, most_hidden, of_bumps, of_exponent, of_highlight, of_penumbra, of_speck, of_terminator,
     shadow_half_width,
 };
-use super::edges::{Break, Edge, KNOTS, Sought, add_breaks};
+use super::edges::{Break, Edge, KNOTS, MOST_KNOTS, Sought, add_breaks};
 use super::light::sun_light;
 use super::point::SurfacePoint;
 use super::rectangle::{Along, Cell, Contents, Light, Lit};
@@ -56,6 +56,9 @@ const NARROW: f64 = 3.0;
 
 /// Points of a curve are taken to be no further from its middle than so many times the furthest knot. Not proved.
 const REACH: f64 = 1.25;
+
+/// A curve is long if a knot is further from its middle, in parts of the sphere's radius. Not tuned.
+const LONG: f64 = 0.4;
 
 impl OfSun<'_> {
     fn place(&self, candidate: &Candidate, shading: &ShadingNormal, at: DVec2) -> SurfacePoint {
@@ -208,13 +211,24 @@ impl Light for OfSun<'_> {
         }
         let shading = self.shading(candidate);
         let disc = self.sun.disc;
-        let knots: [SurfacePoint; KNOTS] = std::array::from_fn(|index| {
-            let at = curve.at(index as f64 / (KNOTS - 1) as f64);
-            self.place(candidate, &shading, at)
-        });
-        let middle = knots[KNOTS / 2];
-        let reach = |knot: &SurfacePoint| (knot.position - middle.position).length();
-        let reach = REACH * knots.iter().map(reach).fold(0.0, f64::max);
+        let place_at = |place: f64| self.place(candidate, &shading, curve.at(place));
+        let middle = place_at(0.5);
+        let mut knots = [middle; MOST_KNOTS];
+        let mut find = |count: usize| {
+            let mut reach: f64 = 0.0;
+            for (index, knot) in knots[..count].iter_mut().enumerate() {
+                *knot = place_at(index as f64 / (count - 1) as f64);
+                reach = reach.max((knot.position - middle.position).length());
+            }
+            reach
+        };
+        let (mut count, mut reach) = (KNOTS, find(KNOTS));
+        if reach > LONG * candidate.radius {
+            count = MOST_KNOTS;
+            reach = find(MOST_KNOTS);
+        }
+        let knots = &knots[..count];
+        let reach = REACH * reach;
         // Above the horizon E₀ grows with the power 5/2 of the distance. To a small exponent this is nearly a step.
         let is_steep = self.world.material(candidate.sphere).exponent < 1.0;
         for (number, edge) in self.memory.edges[number].iter().enumerate() {
@@ -227,9 +241,12 @@ impl Light for OfSun<'_> {
                     continue;
                 }
             }
-            let heights = knots.map(|place| edge.height(&place, &disc));
+            let mut heights = [edge.height(&middle, &disc); MOST_KNOTS];
+            for (height, place) in heights.iter_mut().zip(knots) {
+                *height = edge.height(place, &disc);
+            }
             add_breaks(
-                &heights,
+                &heights[..count],
                 &mut |place| edge.height(&self.place(candidate, &shading, curve.at(place)), &disc),
                 Sought {
                     has_highlight: matches!(
