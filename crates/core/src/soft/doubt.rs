@@ -9,6 +9,7 @@ use super::point::{Occluders, SurfacePoint};
 use super::sun::Sun;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
+use crate::model::sphere::Sphere;
 use crate::model::world::World;
 use crate::numeric::pair::both;
 use crate::search::beyond::Beyond;
@@ -249,11 +250,13 @@ pub(crate) fn of_speck(height: &Height, radius: f64, around: f64) -> f64 {
 }
 
 /// What small spheres beside a part of a smooth surface, or above it, darken between points some part of its size apart.
+/// `part_near` tells how large the part of the cell is that sees the surface right below a sphere, in parts of the cell's side.
 pub(crate) fn of_shadows(
     of: &Neighborhood,
     spacing: f64,
     sphere: usize,
     occluders: Option<&Occluders<'_>>,
+    part_near: &dyn Fn(&Sphere) -> f64,
 ) -> f64 {
     /// Of spheres that are larger, in parts of the distance between points, or farther away, points tell.
     const WIDEST: f64 = 2.0;
@@ -272,8 +275,11 @@ pub(crate) fn of_shadows(
         .for_each_beyond(occluders.spheres, &near, &mut |index| {
             if occluders.may_hide(index, sphere) {
                 let other = &occluders.spheres[index];
-                // The part of a long cell that lies about as near to it as its size.
-                let part = (2.0 * other.radius() / of.around).min(1.0);
+                // The part of a long cell that lies about as near to it as its size: of a surface that the eye sees at a
+                // grazing angle, most of the cell may be near.
+                let part = (2.0 * other.radius() / of.around)
+                    .max(part_near(other))
+                    .min(1.0);
                 doubt = doubt.max(of.missed(other, spacing) * part);
             }
         });

@@ -23,6 +23,7 @@ use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::sky::Sky;
+use crate::model::sphere::Sphere;
 use crate::patches::known::Patches;
 use crate::patches::light::{NodeLight, Shares};
 use crate::patches::patch::Patch;
@@ -227,6 +228,31 @@ impl OfSky<'_, '_> {
         }
     }
 
+    /// The height of what the eye sees of a candidate right below another sphere, in parts of a cell's side.
+    fn part_near(&self, other: &Sphere, candidate: &Candidate, cell: &Cell) -> f64 {
+        let own = &self.soft.world.spheres()[candidate.sphere];
+        let normal = (other.center() - own.center()).normalize();
+        let camera = &self.soft.view.camera;
+        // Its length as seen, at a distance at which the cell's side has this length.
+        let (slant, side) = match self.projection {
+            Projection::Central => {
+                let to_eye = camera.position - point_of(own, normal);
+                let distance = to_eye.length();
+                let flat = 1.0 + cell.middle().length_squared();
+                (
+                    normal.dot(to_eye).abs() / distance,
+                    (cell.v[1] - cell.v[0]) * distance / flat,
+                )
+            }
+            Projection::Parallel => {
+                let scale = libm::scalbn(1.0, self.soft.index.length_exponent());
+                let forward = camera.world_from_camera.z_axis;
+                (normal.dot(forward).abs(), (cell.v[1] - cell.v[0]) * scale)
+            }
+        };
+        2.0 * other.radius() * slant / side
+    }
+
     /// The light at a place, from the caps of all spheres that may hide some of it.
     fn exactly(&mut self, candidate: &Candidate, place: DVec2) -> Option<Lit> {
         let ray = self.soft.ray(place);
@@ -277,7 +303,9 @@ impl Light for OfSky<'_, '_> {
         let (sphere, occluders) = (candidate.sphere, soft.occluders());
         if shading.is_smooth() {
             let seen = self.seen(candidate, cell);
-            return of_shadows(&seen, spacing, sphere, occluders.as_ref()) * self.brightest();
+            let part_near = |other: &Sphere| self.part_near(other, candidate, cell);
+            let doubt = of_shadows(&seen, spacing, sphere, occluders.as_ref(), &part_near);
+            return doubt * self.brightest();
         }
         let scale = libm::scalbn(1.0, soft.index.length_exponent());
         let extent = Extent::new(candidate, [cell.u, cell.v], self.projection);
