@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::cap::{Cap, Meeting};
-use super::visible::segment;
 
 /// The integral of the directions ω, as vectors, over what a cap leaves of a disc; none if their circles do not cross, or if
 /// the axes are nearly opposite.
@@ -22,6 +21,20 @@ pub(crate) fn left_of(disc: &Cap, cap: &Cap) -> Option<DVec3> {
     let of_disc = segment(TAU - 2.0 * covered.half_width());
     let part = |cap: &Cap, segment: f64| cap.axis * (0.5 * cap.sine * cap.sine * segment);
     Some(part(disc, of_disc) - part(cap, of_cap))
+}
+
+/// φ − sin φ.
+pub(super) fn segment(angle: f64) -> f64 {
+    if angle > 0.5 {
+        return angle - libm::sin(angle);
+    }
+    // φ³/3! − φ⁵/5! + …, to 2⁻⁶⁰ of the first term.
+    let square = angle * angle;
+    let mut sum = 0.0;
+    for order in [15.0, 13.0, 11.0, 9.0, 7.0, 5.0] {
+        sum = square / (order * (order - 1.0)) * (1.0 - sum);
+    }
+    square * angle / 6.0 * (1.0 - sum)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::arcs::{Arcs, End};
 use super::bodies::Bodies;
 use super::cap::{Cap, Frame, Meeting};
 use super::circles::Circles;
-use super::lens::left_of;
+use super::lens::{left_of, segment};
 use super::point::SurfacePoint;
 use crate::numeric::pair::both;
 
@@ -256,20 +256,6 @@ impl Border {
             by_axis: (frame.x * toward.x + frame.y * toward.y) * -cap.sine,
         }
     }
-}
-
-/// φ − sin φ.
-pub(super) fn segment(angle: f64) -> f64 {
-    if angle > 0.5 {
-        return angle - libm::sin(angle);
-    }
-    // φ³/3! − φ⁵/5! + …, to 2⁻⁶⁰ of the first term.
-    let square = angle * angle;
-    let mut sum = 0.0;
-    for order in [15.0, 13.0, 11.0, 9.0, 7.0, 5.0] {
-        sum = square / (order * (order - 1.0)) * (1.0 - sum);
-    }
-    square * angle / 6.0 * (1.0 - sum)
 }
 
 /// The share of a disc's light that a surface receives: the integral of max(0, n·ω) over the visible part of the disc,

@@ -7,8 +7,8 @@ use crate::soft::cap::Cap;
 use crate::soft::edges::Edge;
 use crate::soft::visible::Hidden;
 
-/// What is in doubt on 80 units of a huge floor with a ball on it.
-fn doubt(ball: DVec3, radius: f64) -> f64 {
+/// What is in doubt on 80 units of a huge floor with a ball on it, if a part of the cell sees the floor below the ball.
+fn doubt_seen(ball: DVec3, radius: f64, part: f64) -> f64 {
     const FLOOR: f64 = 1e5;
     let spheres = [
         Sphere::new(DVec3::new(0.0, -FLOOR, 0.0), FLOOR).unwrap(),
@@ -24,7 +24,11 @@ fn doubt(ball: DVec3, radius: f64) -> f64 {
         normal: DVec3::Y,
         turn: 40.0 / FLOOR,
     };
-    of_shadows(&of, 0.25, 0, Some(&occluders))
+    of_shadows(&of, 0.25, 0, Some(&occluders), &|_| part)
+}
+
+fn doubt(ball: DVec3, radius: f64) -> f64 {
+    doubt_seen(ball, radius, 0.0)
 }
 
 /// A part of a unit sphere around a point of it.
@@ -148,4 +152,8 @@ fn balls_that_lie_between_points_are_noticed() {
     // Points tell of large ones, and of those that are far away.
     assert_eq!(doubt(DVec3::new(12.0, 30.0, 18.0), 30.0), 0.0);
     assert!(doubt(DVec3::new(300.0, 8.0, 0.0), 8.0) < 1e-6);
+    // One that is small beside all of the piece, in a large part of the picture of it.
+    let small = DVec3::new(12.0, 0.5, 18.0);
+    assert!(doubt(small, 0.5) < 0.03);
+    assert!(doubt_seen(small, 0.5, 0.4) > 0.3);
 }
