@@ -2,7 +2,7 @@ use std::path::PathBuf;
 use std::{env, fs, process};
 
 use glam::DVec3;
-use marbles_core::Sphere;
+use marbles_core::{Color, Light, Sphere};
 
 use super::*;
 use crate::Scene;
@@ -295,20 +295,13 @@ fn few_spheres_are_in_soft_light() {
             ..Figure::default()
         };
         let scene = Scene::load_figure(&path, &figure, &[], &|_| {}).unwrap();
-        let mut world = scene.world().clone();
+        let world = scene.world();
         assert_eq!(world.sky.is_some(), is_soft, "{count} {turntable:?}");
         assert_eq!(world.shadows, is_soft);
         // Where nothing is hidden, white is not clipped.
-        let mut brightest = world.ambient;
-        brightest += world
-            .sky
-            .take()
-            .map_or(marbles_core::Color::ZERO, |sky| sky.above());
-        brightest += world
-            .lights
-            .iter()
-            .map(marbles_core::Light::intensity)
-            .sum::<marbles_core::Color>();
+        let of_lights: Color = world.lights.iter().map(Light::intensity).sum();
+        let of_sky = world.sky.map_or(Color::ZERO, |sky| sky.above());
+        let brightest = world.ambient + of_lights + of_sky;
         assert!(brightest.max_element() <= 1.0 + 1e-12, "{brightest}");
     }
 }

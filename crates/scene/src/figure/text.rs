@@ -42,7 +42,7 @@ const SOFT_LIGHT: &str = "    // Light from a sky, and from a lamp as large as a
 const HARD_LIGHT: &str = "    // Light from everywhere, and two lights that move with the camera: x is right, y up, z forward.
     ambient: 0.35,
     shadows: false, // `true` darkens what other spheres hide from the lights
-    // sky: 0.8, // with `shadows: true` and less of other light: little of it reaches crevices; takes longer
+    // sky: 0.5, // with `shadows: true` and less of other light: little of it reaches crevices; takes longer
     lights: [
         Directional(name: \"key\", toward: (-1, 1.2, -1.2), attached: Camera, intensity: 0.5),
         Directional(name: \"fill\", toward: (1, 0.3, -1), attached: Camera, intensity: 0.15),
