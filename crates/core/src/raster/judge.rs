@@ -64,6 +64,10 @@ const OF_SPHERES: f64 = 0.3;
 /// adds is the same on all of its ways.
 const OF_PASSING: f64 = 0.25;
 
+/// The part of the light between a shadow and where a ball turns away from the light that is taken for a line: half, as
+/// there it falls to nothing, and a little more for what [`OF_LINE`] lacks.
+const OF_TURNING: f32 = 0.6;
+
 /// The light below which what is seen does not tell how what is behind is lit, in parts of the brightest.
 const BLACK: f32 = 1e-3;
 
@@ -78,7 +82,7 @@ const SIDE: usize = Tile::SIDE as usize;
 struct Sums {
     /// The squares of the differences, and the differences that are rises and falls, layer by layer.
     pairs: Vec<f32>,
-    /// The light that strips at edges may add or take.
+    /// The light that strips along the grid may add or take.
     edges: Vec<f32>,
     rises: Vec<Vec<f32>>,
     falls: Vec<Vec<f32>>,
@@ -289,17 +293,19 @@ impl Sums {
             let names = two(simd, &samples.occluders, (place, step));
             let kept = two(simd, &samples.kept, (place, step));
             let same: mask32x8<S> = balls[0].simd_eq(balls[1]);
-            let dark = kept[0].simd_gt(zero) & kept[1].simd_gt(zero);
+            let are_dark = kept[0].simd_gt(zero) & kept[1].simd_gt(zero);
             let kept = kept[0].max(kept[1]);
-            // On a ball light may pass between two others that keep it from both; at its edge there may be a strip of
-            // whatever is behind, lit as its neighbors are.
-            let is_between = dark & !names[0].simd_eq(names[1]);
-            let on_ball = is_between.select(kept, zero);
+            // On a ball light may pass between two others that keep it from both, or between one of them and where the
+            // ball turns away from the light; at its edge there may be a strip of whatever is behind, lit as its
+            // neighbors are.
+            let is_between = !names[0].simd_eq(names[1]);
+            let on_ball = is_between.select((kept - most).max(zero), zero);
+            let turning = (same & !are_dark).select(on_ball, zero) * OF_TURNING;
             let alike = kept + brightest;
             let strip = alike.max((alike * weights.of_albedos).min(brightest_strip));
             let at_edge = same.select(zero, strip.max(background));
             let passing = (on_ball + at_edge) * of_passing;
-            add(simd, &mut self.edges, (column, at_edge));
+            add(simd, &mut self.edges, (column, at_edge + turning));
             let square = most * most + same.select(zero, of_spheres) + passing * passing;
             add(simd, &mut self.pairs, (column, square));
         }

@@ -381,3 +381,53 @@ fn what_it_does_not_know_is_left_to_others() {
     };
     assert!(is_known(&add_highlight).is_none());
 }
+
+/// Balls lit from the side, each in the shadow of one that leaves a ring: between its shadow and where a ball turns
+/// away from the light a strip is lit that no sample sees.
+#[test]
+fn light_between_a_shadow_and_where_a_ball_turns_away_is_claimed() {
+    let side = 4;
+    let lens = Lens::from_field_of_view(Angle::from_degrees(0.1)).unwrap();
+    let view = View::new(Camera::default(), lens, 32, 32);
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    let sun = Light::directional(DVec3::X, Color::ONE).unwrap();
+    world.lights.push(sun);
+    let distance = 1e5;
+    let pixel = lens.width / 32.0 * distance;
+    let mut add = |x: f64, y: f64, ahead: f64, radius: f64| {
+        let center = DVec3::new(x - 16.0, 16.0 - y, -ahead) * pixel + DVec3::Z * distance;
+        world.add_sphere(Sphere::new(center, radius * pixel).unwrap(), white);
+    };
+    for number in 0..16 {
+        let (left, top) = (8.0 * f64::from(number % 4), 8.0 * f64::from(number / 4));
+        // Its middle lies a bit to the right of a column of samples: the strip ends before the next one. Light of
+        // cosines up to 0.06 passes the other ball. No ball of a row lies in the shadow of one of another tile.
+        let (x, y, ahead) = (left + 4.0 + 0.51 / f64::from(side), top + 2.0, 10.0 * left);
+        add(x, y, ahead, 4.0);
+        add(x + 1e3, y, ahead, 4.0 * libm::sqrt(1.0 - 0.06 * 0.06));
+        // What makes a crowd of the tile.
+        for place in 0..18 {
+            add(left + 0.44 * f64::from(place), top + 7.4, ahead + 8.0, 0.26);
+        }
+    }
+    let visibility = Visibility::new(&world);
+    let index = ViewIndex::new(&visibility, &view, RayPoints::All);
+    let raster = Raster::new(&world, &view, &index, false).expect("a crowd");
+    let fine = NonZeroU32::new(64).unwrap();
+    let samples = Supersampling::new(&world, &view, &index, fine, false);
+    let (mut scratch, mut most, mut dark) = (Scratch::default(), 0.0_f64, 0);
+    for tile in tiles(&view) {
+        let Some(found) = raster.pixels(tile, side, &mut scratch) else {
+            continue;
+        };
+        let expected = sampled(&samples, tile, &view);
+        for ((place, _), expected) in inside(tile, &view).zip(expected) {
+            let off = (found[place].value - expected.value).abs().max_element();
+            most = most.max(off / found[place].error);
+            dark += u32::from(found[place].value == Color::ZERO && off > 0.005);
+        }
+    }
+    assert!(dark >= 16, "{dark} strips");
+    assert!(most < 6.0, "{most}");
+}
