@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::model::camera::Projection;
+use crate::numeric::pair::three;
 use crate::numeric::polynomial::{Linear, Quadratic};
 
 /// A rectangle of the retina: a pixel or a part of one.
@@ -190,7 +191,7 @@ impl Cell {
         let one = self.middle.cross(vector);
         let x = DVec3::AXES[0].cross(vector) * self.size[0];
         let y = DVec3::AXES[1].cross(vector) * self.size[1];
-        [0, 1, 2].map(|axis| Linear {
+        three([0, 1, 2], |axis| Linear {
             one: one[axis],
             x: x[axis],
             y: y[axis],

@@ -19,6 +19,7 @@ use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::fused::is_fused;
+use crate::numeric::pair::three;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// The relative error of each number before its last rounding, at most: 2⁻⁵⁷.
@@ -90,7 +91,9 @@ fn normal<const FUSED: bool>(
     let root_error = crossing.root_error + BOUND * half_chord.high.abs();
     let error = foot_error + directions * root_error;
 
-    let from_center = [0, 1, 2].map(|axis| foot[axis] + half_chord * crossing.directions[axis]);
+    let from_center = three([0, 1, 2], |axis| {
+        foot[axis] + half_chord * crossing.directions[axis]
+    });
     let length = crossing.direction_sq * DoubleDouble::from(radius);
     let mut components = DVec3::ZERO;
     for (component, axis) in components.as_mut().iter_mut().zip(axes) {

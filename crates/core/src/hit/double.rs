@@ -8,6 +8,7 @@ use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::fused::is_fused;
+use crate::numeric::pair::three;
 use crate::numeric::rounding::{UNIT_ROUNDOFF, two_difference};
 
 /// Bound of the errors of K relative to f·f + r², of Q relative to A (f·f + r²), and of B and
@@ -72,7 +73,7 @@ impl<const FUSED: bool> Crossing<FUSED> {
     pub(super) fn new(sphere: &Sphere, ray: &Ray) -> Option<Option<Self>> {
         // A, B and K.
         let to_center = to_center::<FUSED>(sphere, ray.origin);
-        let directions = ray.direction.to_array().map(DoubleDouble::<FUSED>::from);
+        let directions = three(ray.direction.to_array(), DoubleDouble::<FUSED>::from);
         let direction_sq = dot(directions, directions);
         let along = dot(directions, to_center);
         let distance_sq = dot(to_center, to_center);
@@ -188,7 +189,7 @@ fn decide<const FUSED: bool>(sphere: &Sphere, ray: &Ray) -> Option<Option<Hit>> 
 /// c − o, exactly.
 #[inline(always)]
 fn to_center<const FUSED: bool>(sphere: &Sphere, origin: DVec3) -> Vector<FUSED> {
-    [0, 1, 2].map(|axis| {
+    three([0, 1, 2], |axis| {
         let (high, low) = two_difference(sphere.center[axis], origin[axis]);
         DoubleDouble { high, low }
     })

@@ -9,7 +9,7 @@ use num_traits::{Signed, ToPrimitive};
 use super::outcome::{Components, Hit};
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
-use crate::numeric::pair::both;
+use crate::numeric::pair::{both, three};
 
 /// Digits that quotients and roots keep: far more than doubles have.
 const BITS: u64 = 160;
@@ -44,7 +44,7 @@ fn numbers<const COUNT: usize>(
     let (origin, lengths) = lengths.split_at(3);
     let of_sphere = |index: usize| {
         let (center, radius) = (&lengths[4 * index..], lengths[4 * index + 3].clone());
-        let to_center = [0, 1, 2].map(|axis| &center[axis] - &origin[axis]);
+        let to_center = three([0, 1, 2], |axis| &center[axis] - &origin[axis]);
         let direction_sq = dot(direction, direction);
         let along = dot(direction, &to_center);
         let outside = dot(&to_center, &to_center) - &radius * &radius;

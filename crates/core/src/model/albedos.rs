@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::color::Color;
 use super::color::is_grey;
+use crate::numeric::pair::three;
 
 /// Albedos of spheres, in place of their material's.
 ///
@@ -54,7 +55,7 @@ impl Albedos {
         match self {
             Self::Each(albedos) => {
                 let albedo = albedos.get(index)?;
-                Some(DVec3::from_array(albedo.map(f64::from)))
+                Some(DVec3::from_array(three(*albedo, f64::from)))
             }
             Self::Palette { colors, indices } => {
                 colors.get(usize::from(*indices.get(index)?)).copied()

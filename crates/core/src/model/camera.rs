@@ -5,6 +5,7 @@ use std::fmt;
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::numeric::angle::{Angle, Precise};
+use crate::numeric::pair::three;
 
 /// A viewpoint and an orientation.
 ///
@@ -222,7 +223,7 @@ fn nearest_to_origin(position: DVec3, pan: Angle, tilt: Angle) -> DVec3 {
         let way = forward[axis] * Precise::from(along);
         (Precise::from(position[axis]) - way).high
     };
-    let point = DVec3::from_array([0, 1, 2].map(from_origin));
+    let point = DVec3::from_array(three([0, 1, 2], from_origin));
     if point.is_finite() { point } else { position }
 }
 

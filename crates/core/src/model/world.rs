@@ -303,6 +303,14 @@ impl World {
         }
     }
 
+    /// The albedo of all spheres, where none can have another one.
+    pub(crate) fn only_albedo(&self) -> Option<Color> {
+        let [only] = &self.materials[..] else {
+            return None;
+        };
+        self.painted.is_empty().then_some(only.albedo)
+    }
+
     fn own_albedo(&self, sphere: usize) -> Color {
         let after = self.painted.partition_point(|some| some.first <= sphere);
         let own = self.painted[..after].last();

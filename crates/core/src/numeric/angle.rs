@@ -1,6 +1,7 @@
 //! Angles as points of the unit circle.
 
 use super::double_double::DoubleDouble;
+use crate::numeric::pair::both;
 
 /// An angle, held as its sine and cosine.
 ///
@@ -73,7 +74,10 @@ impl Angle {
     /// Sine and cosine, to twice the precision of a double where that is known.
     pub(crate) fn precise(self) -> [Precise; 2] {
         let [sin_rest, cos_rest] = self.rest;
-        [(self.sin, sin_rest), (self.cos, cos_rest)].map(Precise::from_parts)
+        both(
+            [(self.sin, sin_rest), (self.cos, cos_rest)],
+            Precise::from_parts,
+        )
     }
 
     /// The angle turned the other way.

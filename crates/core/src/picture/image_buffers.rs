@@ -3,6 +3,7 @@
 use image::{ImageBuffer, Rgba, Rgba32FImage, RgbaImage};
 
 use super::image::Image;
+use crate::numeric::pair::three;
 
 /// The codes of [`Image::to_srgb8`]: 8-bit sRGB with straight alpha, for viewers.
 ///
@@ -41,7 +42,7 @@ impl From<&Image> for Rgba32FImage {
                 0.0 => 0.0,
                 _ => light / alpha,
             };
-            let [red, green, blue] = [red, green, blue].map(straight);
+            let [red, green, blue] = three([red, green, blue], straight);
             Rgba([red, green, blue, alpha].map(|value| value as f32))
         })
     }

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::plane::Plane;
 use crate::hit::ball::Ball;
 use crate::model::color::Color;
+use crate::search::light_grid::Asked;
 
 /// The largest radius on the screen, in samples. Larger balls have few edges in a tile, and single precision knows
 /// them less.
@@ -27,8 +28,8 @@ const NEAREST: f64 = 1.5;
 /// cancels: all lengths are measured from the ball's own center.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RasterBall {
-    /// The index of the sphere in the world.
-    pub(super) index: u32,
+    /// The sphere in the world.
+    pub(super) in_world: Asked,
     pub(super) radius: f32,
     /// p.
     pub(super) at: [f32; 2],
@@ -46,8 +47,8 @@ pub(super) struct RasterBall {
 }
 
 impl RasterBall {
-    /// A ball whose center lies there in the camera's frame, if it is neither too large nor too small, and lies
-    /// ahead. The colors are missing.
+    /// A ball whose center lies there in the camera's frame, if it is neither too large nor too small, and lies ahead. Its
+    /// color and its place in the world are missing.
     pub(super) fn new(ball: &Ball, center: DVec3, beginning: f64, plane: &Plane) -> Option<Self> {
         /// More than roundings move a key by, relatively.
         const BLUR: f64 = 4e-6;
@@ -75,7 +76,11 @@ impl RasterBall {
         let down = ends(center.y).map(|end| (end - plane.first.y) / plane.step.y);
         let depth = center.z - beginning;
         Some(Self {
-            index: ball.index,
+            in_world: Asked {
+                center: DVec3::ZERO,
+                radius,
+                index: ball.index,
+            },
             radius: radius as f32,
             at: [x as f32, y as f32],
             scale: scale as f32,

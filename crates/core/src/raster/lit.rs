@@ -1,6 +1,6 @@
 //! The lights of a raster.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use crate::model::color::Color;
 use crate::model::light::Light;
@@ -35,8 +35,7 @@ impl Sun {
         has_shadows: bool,
     ) -> Vec<Self> {
         let from_world = view.camera.world_from_camera.transpose();
-        let in_camera =
-            |direction: DVec3| (from_world * direction).to_array().map(|part| part as f32);
+        let in_camera = |direction: DVec3| (from_world * direction).as_vec3().to_array();
         let of_light = |(light, sun): (usize, &Light)| {
             let Light::Directional(sun) = sun else {
                 return None;
@@ -60,8 +59,9 @@ impl Sun {
         lights.iter().enumerate().filter_map(of_light).collect()
     }
 
-    /// A way in the world, to the right and up across the light.
-    pub(super) fn project(&self, way: DVec3) -> DVec2 {
-        DVec2::new(way.dot(self.across.0), way.dot(self.across.1))
+    /// A way in the world: to the right and up across the light, and toward it.
+    pub(super) fn project(&self, way: DVec3) -> DVec3 {
+        let (right, up) = self.across;
+        DVec3::new(way.dot(right), way.dot(up), way.dot(self.in_world))
     }
 }

@@ -39,6 +39,7 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::image::Channels;
 use crate::picture::tile::Tile;
+use crate::search::light_grid::Asked;
 use crate::search::view_index::ViewIndex;
 
 /// The pixels of a tile.
@@ -65,6 +66,8 @@ pub(crate) struct Raster<'scene> {
     background: Color,
     ambient: Color,
     has_alpha: bool,
+    /// The albedo of all spheres, if they have no others.
+    albedo: Option<Color>,
     /// The unit of light.
     unit: f64,
     /// The largest difference between what two rays may see, in units.
@@ -114,6 +117,7 @@ impl<'scene> Raster<'scene> {
             background: background / unit,
             ambient: world.ambient / unit,
             has_alpha: alpha,
+            albedo: world.only_albedo(),
             unit,
             contrast: contrast / unit,
             level: Level::new(),
@@ -188,17 +192,24 @@ impl<'scene> Raster<'scene> {
     fn gather(&self, tile: Tile, plane: &Plane, balls: &mut Vec<RasterBall>) -> bool {
         balls.clear();
         let from_world = self.view.camera.world_from_camera.transpose();
+        let unit = libm::scalbn(1.0, self.index.length_exponent());
         let mut beginning = None;
         for ball in self.index.balls(tile) {
             let center = from_world * ball.to_center;
             let beginning = *beginning.get_or_insert(center.z);
-            let index = ball.index as usize;
             let raster_ball = RasterBall::new(ball, center, beginning, plane);
             let Some(raster_ball) = raster_ball.filter(|_| balls.len() < MOST) else {
                 return false;
             };
             balls.push(RasterBall {
-                albedo: self.world.albedo(index),
+                in_world: Asked {
+                    center: self.view.camera.position + ball.to_center * unit,
+                    radius: ball.radius * unit,
+                    index: ball.index,
+                },
+                albedo: self
+                    .albedo
+                    .unwrap_or_else(|| self.world.albedo(ball.index as usize)),
                 ..raster_ball
             });
         }

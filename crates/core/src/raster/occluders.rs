@@ -5,6 +5,7 @@ use super::lit::Sun;
 use crate::model::view::View;
 use crate::picture::tile::Tile;
 use crate::search::discs::Disc;
+use crate::search::light_grid::{self, Asked, Higher};
 use crate::search::shadow_cells::ShadowCells;
 use crate::search::visibility::Visibility;
 
@@ -19,6 +20,7 @@ const LARGEST: f64 = 1024.0;
 pub(super) struct Occluders {
     cells: ShadowCells,
     found: Vec<Disc>,
+    higher: light_grid::Found,
     /// For each light the end of its occluders.
     pub(super) ends: Vec<usize>,
     pub(super) list: Vec<Occluder>,
@@ -51,52 +53,71 @@ impl Occluders {
         ball: &RasterBall,
     ) -> bool {
         self.reset();
-        let spheres = visibility.spheres();
-        let own = &spheres[ball.index as usize];
-        let side = view.pixel_size().max_element() / view.magnification()
-            * f64::from(Tile::SIDE)
-            * (own.center() - view.camera.position).abs().max_element();
+        let Asked { radius, index, .. } = ball.in_world;
         for sun in suns {
             if sun.has_shadows {
-                self.found.clear();
+                self.higher.list.clear();
                 let light = visibility.light(sun.light);
-                let index = ball.index as usize;
-                let asked = (sun.light, index, side);
-                let kept = light.of_sphere(index);
-                let discs = if let Some(kept) = kept {
-                    kept
-                } else {
-                    let is_found = !light.keeps()
-                        && self.cells.discs_before(visibility, asked, &mut self.found);
-                    if !is_found {
-                        self.found.clear();
-                        light.find(index, &[own.center()], own.radius(), &mut self.found);
-                    }
-                    &self.found
-                };
-                if discs.len() > MOST {
+                let grid = light.grid().filter(|_| visibility.is_moderate());
+                let is_found = grid.is_some_and(|grid| {
+                    grid.find(visibility.spheres(), &ball.in_world, &mut self.higher)
+                });
+                if !is_found {
+                    self.look_up(sun, visibility, view, index as usize);
+                }
+                if self.higher.list.len() > MOST {
                     return false;
                 }
-                for disc in discs {
-                    let sphere = &spheres[disc.sphere as usize];
-                    let size = sphere.radius() / own.radius();
+                for higher in &self.higher.list {
+                    let size = higher.radius / radius;
                     if size > LARGEST {
                         return false;
                     }
-                    let way = (sphere.center() - own.center()) / own.radius();
-                    let across = sun.project(way);
+                    let way = higher.way / radius;
                     self.list.push(Occluder {
-                        right: across.x as f32,
-                        up: across.y as f32,
-                        above: way.dot(sun.in_world) as f32,
+                        right: way.x as f32,
+                        up: way.y as f32,
+                        above: way.z as f32,
                         radius_square: (size * size) as f32,
-                        name: name(disc.sphere),
+                        name: name(higher.index),
                     });
                 }
             }
             self.ends.push(self.list.len());
         }
         true
+    }
+
+    /// Looks up what may darken a sphere, where no cells serve.
+    fn look_up(&mut self, sun: &Sun, visibility: &Visibility<'_>, view: &View, index: usize) {
+        let spheres = visibility.spheres();
+        let own = &spheres[index];
+        let side = view.pixel_size().max_element() / view.magnification()
+            * f64::from(Tile::SIDE)
+            * (own.center() - view.camera.position).abs().max_element();
+        let light = visibility.light(sun.light);
+        self.found.clear();
+        let asked = (sun.light, index, side);
+        let discs = if let Some(kept) = light.of_sphere(index) {
+            kept
+        } else {
+            let is_found =
+                !light.keeps() && self.cells.discs_before(visibility, asked, &mut self.found);
+            if !is_found {
+                self.found.clear();
+                light.find(index, &[own.center()], own.radius(), &mut self.found);
+            }
+            &self.found
+        };
+        self.higher.list.extend(discs.iter().map(|disc| {
+            let sphere = &spheres[disc.sphere as usize];
+            let way = sphere.center() - own.center();
+            Higher {
+                way: sun.project(way),
+                radius: sphere.radius(),
+                index: disc.sphere,
+            }
+        }));
     }
 }
 

@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DVec2, DVec3};
 
+use super::light_grid::LightGrid;
 use super::occluders::{Occluders, slack};
 use crate::model::sphere::Sphere;
 
@@ -36,6 +37,8 @@ pub(crate) struct DiscCache<'world> {
     occluders: Occluders<'world>,
     /// One for each sphere, or none in worlds of very many; copies share what they find.
     kept: Arc<[OnceLock<Kept>]>,
+    /// The spheres in cells, if they serve; copies share them.
+    grid: Arc<OnceLock<Option<LightGrid>>>,
 }
 
 /// The largest error of points of a sphere where its discs are asked for.
@@ -52,6 +55,7 @@ impl<'world> DiscCache<'world> {
         Self {
             occluders,
             kept: (0..count).map(|_| OnceLock::new()).collect(),
+            grid: Arc::default(),
         }
     }
 
@@ -118,6 +122,15 @@ impl<'world> DiscCache<'world> {
                 sphere: index as u32,
             })
         }));
+    }
+
+    /// The spheres in cells across the light, where that serves; their lengths have to be moderate.
+    pub(crate) fn grid(&self) -> Option<&LightGrid> {
+        let occluders = &self.occluders;
+        let (right, up) = occluders.axes();
+        let axes = [right, up, occluders.toward()];
+        let find = || LightGrid::new(occluders.spheres(), axes);
+        self.grid.get_or_init(find).as_ref()
     }
 
     /// The axes of the plane across the light.

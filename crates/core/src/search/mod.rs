@@ -12,6 +12,7 @@ pub(crate) mod discs;
 pub(crate) mod frustum;
 pub(crate) mod grid;
 pub(crate) mod hierarchy;
+pub(crate) mod light_grid;
 mod mask;
 mod nested;
 mod occluders;

@@ -17,6 +17,7 @@ use super::hierarchy::{BoxTest, Hierarchy, is_sphere};
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{f64x8, mask64x8};
+use crate::numeric::pair::three;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// The spheres as discs of a plane, asked which of them a point may lie in.
@@ -332,7 +333,7 @@ fn highest(hierarchy: &Hierarchy, toward: DVec3) -> f64 {
     let mut highest = f64::NEG_INFINITY;
     for place in set_bits(boxes.filled()) {
         let corner = |side: &[[f32; WIDTH]; 3]| {
-            DVec3::from_array([0, 1, 2].map(|axis| f64::from(side[axis][place])))
+            DVec3::from_array(three([0, 1, 2], |axis| f64::from(side[axis][place])))
         };
         let (low, high) = (corner(&boxes.low), corner(&boxes.high));
         let (center, half) = ((low + high) * 0.5, (high - low) * 0.5);

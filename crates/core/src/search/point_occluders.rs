@@ -15,6 +15,7 @@ use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::f64x8;
+use crate::numeric::pair::three;
 use crate::numeric::vectors::Vectors;
 
 /// The spheres as a point light sees them.
@@ -277,7 +278,7 @@ fn behind<S: Simd>(
 #[inline(always)]
 fn reaching_spheres<S: Simd>(simd: S, group: &Group, beam: &Beam) -> u8 {
     let [x, y, z] = &group.center;
-    let center = [x, y, z].map(|axis| f64x8::from_array(simd, *axis));
+    let center = three([x, y, z], |axis| f64x8::from_array(simd, *axis));
     reached_lanes(simd, beam, center, f64x8::from_array(simd, group.radius)).0
 }
 

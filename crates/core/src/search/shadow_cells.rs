@@ -14,6 +14,7 @@ use super::disc_grid::{DiscGrid, HighDisc, PointBelow, Square};
 use super::occluders::{Occluders, slack};
 use super::visibility::Visibility;
 use crate::model::ray::Ray;
+use crate::numeric::pair::three;
 
 /// The part of a cell's side up to which points may be off. Not tuned: points are off by far less, unless
 /// they cannot be told apart.
@@ -329,7 +330,7 @@ fn key_at(light: u32, exponent: i32, point: &PointBelow) -> Option<Key> {
         light,
         is_column: false,
         exponent,
-        place: place.floor().to_array().map(|place| place as i64),
+        place: three(place.floor().to_array(), |place| place as i64),
     })
 }
 

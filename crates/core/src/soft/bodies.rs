@@ -7,6 +7,7 @@ use super::cap::{Cap, NO_SPHERE};
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{LANES, Lanes as _, f64x8};
+use crate::numeric::pair::three;
 
 /// Spheres that may hide light.
 #[derive(Clone, Debug)]
@@ -76,8 +77,8 @@ fn all_caps<S: Simd>(
     (position, normal): (DVec3, DVec3),
     caps: &mut Vec<Cap>,
 ) {
-    let from = position.to_array().map(|number| f64x8::splat(simd, number));
-    let up = normal.to_array().map(|number| f64x8::splat(simd, number));
+    let from = three(position.to_array(), |number| f64x8::splat(simd, number));
+    let up = three(normal.to_array(), |number| f64x8::splat(simd, number));
     let one = f64x8::splat(simd, 1.0);
     let zero = f64x8::splat(simd, 0.0);
     let least = f64x8::splat(simd, f64::MIN_POSITIVE);

@@ -17,6 +17,7 @@ use super::rectangle::{Cell, Contents, Integral, Light, Lit};
 use super::strips::Strips;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
+use crate::numeric::pair::both;
 
 /// The claim of a cell inside one sphere, in parts of what the light in its middle differs from the mean of its corners, of
 /// what the means of its diagonals differ, and of what any corner differs from the middle.
@@ -196,7 +197,9 @@ impl Cells {
         };
         let colors = corners.map(&mut light_at);
         let center = light_at(cell.middle());
-        let diagonals = [colors[0] + colors[3], colors[1] + colors[2]].map(|sum| sum * 0.5);
+        let diagonals = both([colors[0] + colors[3], colors[1] + colors[2]], |sum| {
+            sum * 0.5
+        });
         let mean = (diagonals[0] + diagonals[1]) * 0.5;
         let range = colors.into_iter().map(|color| (color - center).abs());
         let range = range.fold(Color::ZERO, Color::max);

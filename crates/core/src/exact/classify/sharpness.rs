@@ -14,6 +14,7 @@ use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::light::lobe::Lobe;
 use crate::numeric::lanes::f64x8;
+use crate::numeric::pair::both;
 use crate::numeric::vectors::Vectors;
 
 /// The length of a patch of a surface, over its distance from a point light, up to which rules follow its light.
@@ -162,11 +163,9 @@ impl Contents {
         };
         let halves = [[-0.5, 0.0], [0.0, 0.5]];
         let whole = [-0.5, 0.5];
-        let [x, y] = [
-            halves.map(|half| longest(cell.part(half, whole))),
-            halves.map(|half| longest(cell.part(whole, half))),
-        ]
-        .map(|[low, high]| low + high);
+        let across = both(halves, |half| longest(cell.part(half, whole)));
+        let along = both(halves, |half| longest(cell.part(whole, half)));
+        let [x, y] = both([across, along], |[low, high]| low + high);
         if x < SHORTER * y {
             Some(0)
         } else if y < SHORTER * x {

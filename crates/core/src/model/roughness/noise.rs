@@ -4,6 +4,7 @@
 use fearless_simd::Simd;
 
 use crate::numeric::lanes::{Lanes, f64x8};
+use crate::numeric::pair::three;
 
 /// The noise in the unit cube about one lattice point: random values at the 27 lattice points around,
 /// blended.
@@ -21,13 +22,14 @@ pub(super) struct Cell {
 impl Cell {
     /// The cell about the lattice point `index` (x, y, z) of the lattice with this key.
     pub(super) fn new(key: u64, index: [i64; 3]) -> Self {
-        let [xs, ys, zs] =
-            index.map(|index| [-1, 0, 1].map(|step| index.wrapping_add(step) as u64));
-        let planes = zs.map(|z| {
+        let [xs, ys, zs] = three(index, |index| {
+            three([-1, 0, 1], |step| index.wrapping_add(step) as u64)
+        });
+        let planes = three(zs, |z| {
             let key = hash(key, z);
-            let rows = ys.map(|y| {
+            let rows = three(ys, |y| {
                 let key = hash(key, y);
-                spline(xs.map(|x| spread(hash(key, x))))
+                spline(three(xs, |x| spread(hash(key, x))))
             });
             let [before, middle, after] = rows;
             let mut plane = rows;
@@ -105,11 +107,11 @@ impl Cell {
         let [one, other] = const { [(AXIS + 1) % 3, (AXIS + 2) % 3] };
         let [along_one, along_other] = [offset[one], offset[other]];
         let first = 2 * STRIDES[AXIS];
-        [0, 1, 2].map(|part| {
+        three([0, 1, 2], |part| {
             let row = |power: usize| {
                 let at = first + power * STRIDES[one] + part;
                 let step = STRIDES[other];
-                let [a, b, c] = [at, at + step, at + 2 * step].map(|at| coefficients[at]);
+                let [a, b, c] = three([at, at + step, at + 2 * step], |at| coefficients[at]);
                 (c * along_other + b) * along_other + a
             };
             2.0 * ((row(2) * along_one + row(1)) * along_one + row(0))

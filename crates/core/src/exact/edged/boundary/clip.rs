@@ -7,6 +7,7 @@ use super::curve::Shape;
 use super::near_shadow::NearShadow;
 use super::piece::Piece;
 use crate::edges::cell::Cell;
+use crate::numeric::pair::both;
 
 /// The parts of a circle in front of the eye that lie in a cell, each no more than a quarter of it.
 pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
@@ -206,14 +207,17 @@ fn of_cone(
     let distance = to_point.length();
     let beyond = (distance - around).max(0.0) * (distance + around);
     // Both are positive where the edge exists and comes so near.
-    let limits = [(to_center, outside.max(0.0)), (to_point, beyond)].map(|(to, square)| {
-        let least = length * square.sqrt();
-        [
-            rim.middle.dot(to) - least,
-            rim.right.dot(to),
-            rim.up.dot(to),
-        ]
-    });
+    let limits = both(
+        [(to_center, outside.max(0.0)), (to_point, beyond)],
+        |(to, square)| {
+            let least = length * square.sqrt();
+            [
+                rim.middle.dot(to) - least,
+                rim.right.dot(to),
+                rim.up.dot(to),
+            ]
+        },
+    );
     // From among the points no way leads past them.
     let limits = &limits[..1 + usize::from(beyond > 0.0)];
     let mut roots = [DVec2::ZERO; 4];
