@@ -108,7 +108,9 @@ impl<S: Simd> Lit<S> {
         let ramped = is_cut.select(diffuse.ambiguity * left.region.most, zero);
         let ends = ramped.min(cut * diffuse.most) * weights[0]
             + shine.ambiguity.min(cut * shine.most) * weights[1];
-        let brightness = diffuse.most * weights[0] + shine.most * weights[1];
+        // Where light and shadow are taken for each other, what is lit is not where its middle was thought to be.
+        let most = |power: &Power<S>| power.most.max(power.value + power.spread * OF_SPREAD);
+        let brightness = most(&diffuse) * weights[0] + most(&shine) * weights[1];
         // What edges hide of what is seen counts as contrast.
         let more = (lit.ambiguity - visible.share.ambiguity * OF_AMBIGUITY).max(zero);
         let more = left.is_free.select(zero, more);
