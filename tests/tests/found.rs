@@ -29,8 +29,10 @@ fn place(line: &str) -> (u32, u32) {
 }
 
 /// Scenes of which pixels had larger errors than they claimed at these tolerances: slivers between balls of one color, balls
-/// that are taken to fill a box that they do not, the light of a sky that another sphere begins to hide, and of a sun that rises.
-const FALSE_CLAIMS: [&str; 6] = [
+/// that are taken to fill a box that they do not, or to lie in shadow, the light of a sky that another sphere begins to hide,
+/// and of a sun that rises.
+const FALSE_CLAIMS: [&str; 7] = [
+    "corner_that_seems_to_lie_in_shadow",
     "sliver_between_balls_of_one_color",
     "tip_in_a_sliver",
     "sphere_that_seems_to_fill_a_box",
@@ -112,5 +114,5 @@ fn found_pixels_are_within_their_tolerance_or_say_so() {
         }
         count += 1;
     }
-    assert!(count >= 61, "{count}");
+    assert!(count >= 62, "{count}");
 }

@@ -84,7 +84,7 @@ pub(crate) struct Scratch {
 }
 
 impl<'scene> Raster<'scene> {
-    /// The raster of a view, if it knows all that the world has: suns, matte materials, and a central lens.
+    /// The raster of a view, if it [serves](Self::serves) there.
     pub(crate) fn new(
         world: &'scene World,
         view: &View,
@@ -92,13 +92,7 @@ impl<'scene> Raster<'scene> {
         alpha: bool,
     ) -> Option<Self> {
         let lights = index.visibility.lights();
-        let is_known = world.spheres().len() >= FEWEST
-            && world.materials().iter().all(is_matte)
-            && view.lens.projection() == Projection::Central
-            && lights
-                .iter()
-                .all(|light| matches!(light, Light::Directional(_)));
-        if !is_known {
+        if !Self::serves(world, view, lights) {
             return None;
         }
         let sky = index.visibility.sky();
@@ -122,6 +116,15 @@ impl<'scene> Raster<'scene> {
             contrast: contrast / unit,
             level: Level::new(),
         })
+    }
+
+    /// True if it knows all that a world has under these lights: suns, matte materials, and a central lens.
+    pub(crate) fn serves(world: &World, view: &View, lights: &[Light]) -> bool {
+        let is_sun = |light: &Light| matches!(light, Light::Directional(_));
+        world.spheres().len() >= FEWEST
+            && world.materials().iter().all(is_matte)
+            && view.lens.projection() == Projection::Central
+            && lights.iter().all(is_sun)
     }
 
     /// The largest difference between what two rays may see.

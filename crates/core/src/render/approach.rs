@@ -16,6 +16,7 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::image::Uniform;
 use crate::picture::pixel::{Evidence, Method, Status};
+use crate::raster::Raster;
 use crate::sampling::Supersampling;
 
 /// The way to make a picture, and what is known of all its pixels before.
@@ -30,7 +31,7 @@ struct Preview {
     from: f64,
     samples: NonZeroU32,
     evidence: Evidence,
-    /// True if it pays only where there are more spheres than pixels.
+    /// True if it pays only where there are more spheres than pixels, and no raster knows their shadows in less time.
     is_for_crowds: bool,
 }
 
@@ -89,8 +90,12 @@ impl Approach {
             Method::Tolerance(tolerance) => tolerance,
         };
         let contrast = contrast(world, (lights, sky), settings.alpha);
+        let has_raster =
+            world.shadows && sky.is_none() && Raster::serves(world, exposure.view(), lights);
         let meets = |preview: &&Preview| {
-            preview.from * contrast <= tolerance && preview.is_for(world, exposure)
+            preview.from * contrast <= tolerance
+                && !(preview.is_for_crowds && has_raster)
+                && preview.is_for(world, exposure)
         };
         let Some(preview) = PREVIEWS.iter().find(meets) else {
             return Self {

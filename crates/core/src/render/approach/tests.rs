@@ -115,9 +115,24 @@ fn crowds_are_sampled_to_less() {
     for _ in 0..16 {
         world.add_sphere(Sphere::new(5.0 * DVec3::Z, 1.0).unwrap(), material);
     }
-    let method = |width| approach_of(&world, &(&view(width)).into(), 0.16, false).method;
-    assert_eq!(method(4), samples(6));
-    assert_eq!(method(5), Method::Tolerance(0.16));
+    let integrated = Method::Tolerance(0.16);
+    let method = |world: &World, width| {
+        let exposure = (&view(width)).into();
+        approach_of(world, &exposure, 0.16, false).method
+    };
+    // A raster knows the shadows of matte spheres in less time.
+    world.shadows = true;
+    assert_eq!(method(&world, 4), integrated);
+    world.shadows = false;
+    assert_eq!(method(&world, 4), samples(6));
+    assert_eq!(method(&world, 5), integrated);
+    // It knows matte materials alone.
+    world.shadows = true;
+    world.add_material(Material {
+        exponent: 2.0,
+        ..Material::MATTE_WHITE
+    });
+    assert_eq!(method(&world, 4), samples(6));
 }
 
 #[derive(Debug)]
