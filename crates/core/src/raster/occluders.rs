@@ -58,10 +58,10 @@ impl Occluders {
             if sun.has_shadows {
                 self.higher.list.clear();
                 let light = visibility.light(sun.light);
-                let grid = light.grid().filter(|_| visibility.is_moderate());
-                let is_found = grid.is_some_and(|grid| {
-                    grid.find(visibility.spheres(), &ball.in_world, &mut self.higher)
-                });
+                let is_found = visibility.is_moderate()
+                    && light.grid().is_some_and(|grid| {
+                        grid.find(visibility.spheres(), &ball.in_world, &mut self.higher)
+                    });
                 if !is_found {
                     self.look_up(sun, visibility, view, index as usize);
                 }

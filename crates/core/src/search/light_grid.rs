@@ -8,6 +8,7 @@
 use fearless_simd::{Level, Simd, dispatch};
 use glam::{DVec3, Vec3};
 
+use super::occluders::slack;
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{LANES, f32x8};
@@ -54,10 +55,12 @@ pub(crate) struct LightGrid {
     indices: Vec<u32>,
     /// The indices of those that are too large.
     large: Vec<u32>,
+    /// The least radius of a sphere whose occluders are known well enough.
+    least: f64,
     level: Level,
 }
 
-/// A sphere that is asked about, about.
+/// The sphere that is asked about; its center may be off by a rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Asked {
     pub(crate) center: DVec3,
@@ -114,6 +117,7 @@ impl LightGrid {
             radii: Vec::new(),
             indices: Vec::new(),
             large: Vec::new(),
+            least: least_radius(low, high, side),
             level: Level::new(),
         };
         grid.list(spheres, reach);
@@ -204,9 +208,12 @@ impl LightGrid {
         squares.map(|count| count * count).sum::<u64>() > MOST_IN_CELL * self.indices.len() as u64
     }
 
-    /// Finds the spheres that lie higher than one of them and may darken it, as far as single precision tells; false if they
-    /// lie in too many cells.
+    /// Finds the spheres that lie higher than one of them and may darken it, as far as single precision tells; false if that
+    /// is too little, or they lie in too many cells.
     pub(crate) fn find(&self, spheres: &[Sphere], asked: &Asked, memory: &mut Found) -> bool {
+        if asked.radius < self.least {
+            return false;
+        }
         let at = self.place(asked.center);
         let reach = asked.radius + 0.5 * self.side;
         let rows = self.starts.len() / (self.columns * self.layers);
@@ -289,6 +296,21 @@ impl LightGrid {
             *mask = (is_higher & is_near).to_bitmask() as u8;
         }
     }
+}
+
+/// The least radius beside which roundings are small, of spheres between these places in cells with this side.
+fn least_radius(low: DVec3, high: DVec3, side: f64) -> f64 {
+    /// The largest shift of a shadow across the light, in radii: a twentieth of a sample of the largest balls of a raster.
+    const ACROSS: f64 = 5e-5;
+    /// The largest error of a height, in radii: no light of a larger cosine is taken for dark, or for lit.
+    const ALONG: f64 = 1e-3;
+    let single = f64::from(f32::EPSILON);
+    let of_place = slack(low.abs().max(high.abs()), 0.0);
+    let (across, along) = (
+        of_place + single * side,
+        of_place + single * (high.z - low.z),
+    );
+    (across / ACROSS).max(along / ALONG)
 }
 
 /// The places of a point along axes.

@@ -114,3 +114,28 @@ fn crowds_that_do_not_fit_into_cells_have_none() {
     let crowded = spheres(5000, sides, |random| if random < 0.1 { 1.0 } else { 1e-3 });
     assert!(LightGrid::new(&crowded, axes()).is_none());
 }
+
+/// Far away, and in deep worlds, centers are not known well enough beside small radii.
+#[test]
+fn nothing_is_found_where_roundings_are_as_large_as_spheres() {
+    let find = |far: f64, sides: DVec3, radius: f64| {
+        let moved = |sphere: Sphere| Sphere::new(sphere.center() + far, radius).unwrap();
+        let spheres: Vec<Sphere> = spheres(1000, sides, |_| radius)
+            .into_iter()
+            .map(moved)
+            .collect();
+        let grid = LightGrid::new(&spheres, axes())?;
+        let asked = Asked {
+            center: spheres[500].center(),
+            radius,
+            index: 500,
+        };
+        Some(grid.find(&spheres, &asked, &mut Found::default()))
+    };
+    let sides = DVec3::splat(1.0);
+    assert_eq!(find(0.0, sides, 0.05), Some(true));
+    assert_eq!(find(1e6, sides, 0.05), Some(true));
+    assert_eq!(find(1e9, sides, 0.05), Some(false));
+    assert_eq!(find(0.0, sides * 1e3, 0.05), Some(false));
+    assert_eq!(find(0.0, sides, 1e-6), Some(false));
+}
