@@ -83,7 +83,7 @@ fn normal<const FUSED: bool>(
 ) -> Option<DVec3> {
     let (foot, half_chord) = (crossing.foot(), crossing.half_chord());
     let sizes = |vector: &[DoubleDouble<FUSED>; 3]| {
-        DVec3::from_array(vector.each_ref().map(|part| part.high.abs()))
+        DVec3::from_array(three([0, 1, 2], |axis| vector[axis].high.abs()))
     };
     let (directions, across) = (sizes(&crossing.directions), sizes(&crossing.across));
     let across_error = terms(directions, sizes(&crossing.to_center)) * BOUND;

@@ -148,7 +148,7 @@ pub(super) fn components(sphere: &Sphere, ray: &Ray, axes: &[DVec3; 3]) -> Optio
     Some(Components {
         t,
         position: DVec3::new(position(0), position(1), position(2)),
-        normal: DVec3::from_array(axes.each_ref().map(normal)),
+        normal: DVec3::from_array(three([0, 1, 2], |axis| normal(&axes[axis]))),
     })
 }
 

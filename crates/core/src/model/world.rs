@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::albedos::Albedos;
 use super::color::Color;
@@ -12,6 +12,7 @@ use super::material_ids::MaterialIds;
 use super::sky::Sky;
 use super::sphere::Sphere;
 use crate::model::color::is_grey;
+use crate::numeric::pair::three;
 
 /// Everything that a camera may see, and its light.
 ///
@@ -182,8 +183,7 @@ impl World {
     /// The same spheres, whose light is their shading normals: red, green and blue tell how far these turn toward the
     /// axes of the world times `sign`, 1 or −1, where they do. Surfaces are matte and white, without shadows.
     pub(crate) fn of_normals(&self, sign: f64) -> Self {
-        let lights = DMat3::IDENTITY.to_cols_array_2d().map(DVec3::from_array);
-        let lights = lights.map(|axis| Light::directional(axis * sign, axis));
+        let lights = three(DVec3::AXES, |axis| Light::directional(axis * sign, axis));
         let matte = self.materials.iter().map(|material| Material {
             roughness: material.roughness,
             ..Material::MATTE_WHITE

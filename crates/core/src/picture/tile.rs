@@ -1,6 +1,7 @@
 //! Tiles of a picture.
 
 use crate::model::color::Color;
+use crate::numeric::pair::three;
 
 /// A rectangle of pixels that are worked on together.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -78,7 +79,7 @@ impl TileLight {
     /// Makes all pixels alike, and nothing cover them.
     pub(crate) fn fill(&mut self, color: Color, error: f64) {
         let row = RowLight {
-            channels: color.to_array().map(|channel| [channel; SIDE]),
+            channels: three(color.to_array(), |channel| [channel; SIDE]),
             alpha: [0.0; SIDE],
             errors: [error; SIDE],
         };

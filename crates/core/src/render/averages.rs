@@ -7,6 +7,7 @@ use super::renderer::Renderer;
 use crate::exact::areas::Areas;
 use crate::exact::integrator::Exact;
 use crate::model::view::View;
+use crate::numeric::pair::both;
 use crate::picture::averages::Coverage;
 use crate::picture::geometry::{Geometry, Written};
 use crate::picture::pixel::{Method, Pixel, Work};
@@ -55,7 +56,8 @@ impl<'scene> Averager<'scene> {
                 Axes::CameraOpenCv | Axes::CameraOpenGl => TURNED,
             };
             let tolerance = wanted.tolerance * SHARE / spread;
-            let sides = renderer.normals().each_ref().map(|side| {
+            let [above, below] = renderer.normals();
+            let sides = both([above, below], |side| {
                 let visibility = visibility.with_lights(side, side.lights.as_slice().into());
                 let index = index().of(&visibility);
                 Exact::new(side, view, &index, tolerance, true)

@@ -68,7 +68,9 @@ impl Hemisphere {
                 center: DVec2::splat(middle),
                 radius: middle,
             };
-            hemisphere.rows = std::array::from_fn(|row| !above.touched(row));
+            for (row, open) in hemisphere.rows.iter_mut().enumerate() {
+                *open = !above.touched(row);
+            }
         }
         hemisphere
     }

@@ -117,6 +117,12 @@ impl Cell {
         let DVec2 { x, y } = self.middle();
         let (left, right) = ([self.u[0], x], [x, self.u[1]]);
         let (low, high) = ([self.v[0], y], [y, self.v[1]]);
-        [(left, low), (right, low), (left, high), (right, high)].map(|(u, v)| Self { u, v })
+        let quarter = |u, v| Self { u, v };
+        [
+            quarter(left, low),
+            quarter(right, low),
+            quarter(left, high),
+            quarter(right, high),
+        ]
     }
 }

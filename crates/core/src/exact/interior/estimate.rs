@@ -9,6 +9,7 @@ use super::samples::{GAUSS_SAMPLES, GRID, POINTS, Rule, WEIGHTS};
 use super::terminators::{MEDIUM, SMALL};
 use crate::exact::costs::highest_cosine;
 use crate::numeric::lanes::{f64x8, mask64x8};
+use crate::numeric::pair::both;
 
 /// The nearness of a singularity from which on light is not smooth enough for an estimate. The terms of a
 /// root's series fall like powers of it; not tuned.
@@ -167,7 +168,7 @@ impl<S: Simd> Filled<'_, S> {
     /// adds up: see [`Bell`].
     #[inline(always)]
     pub(super) fn of_lobes(&self, simd: S, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
-        let bells = self.finish.reflectance.exponents().map(|exponent| Bell {
+        let bells = both(self.finish.reflectance.exponents(), |exponent| Bell {
             exponent,
             rule,
             is_followed: !self.finish.is_rough(),

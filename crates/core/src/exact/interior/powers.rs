@@ -8,6 +8,7 @@ use super::light_cosines::{CosineRange, LightCosines};
 use super::samples::{Rule, TO_CORNER};
 use crate::light::reflection::Falloff;
 use crate::numeric::lanes::f64x8;
+use crate::numeric::pair::both;
 
 /// From this exponent on a power is smooth enough at 0: its fourth derivative is finite.
 const SMOOTH: f64 = 4.0;
@@ -21,7 +22,7 @@ impl<S: Simd> Filled<'_, S> {
     #[inline(always)]
     pub(super) fn of_powers(&self, simd: S, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
-        let powers = self.finish.reflectance.exponents().map(|exponent| {
+        let powers = both(self.finish.reflectance.exponents(), |exponent| {
             let is_singular = exponent < SMOOTH && exponent.fract() != 0.0;
             is_singular.then_some(Power(exponent))
         });

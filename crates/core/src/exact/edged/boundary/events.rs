@@ -140,7 +140,12 @@ impl Stretch<'_> {
                     return;
                 }
                 for index in 0..9 {
-                    let four = std::array::from_fn(|offset| values[index + offset]);
+                    let four = [
+                        values[index],
+                        values[index + 1],
+                        values[index + 2],
+                        values[index + 3],
+                    ];
                     if may_dip(four) {
                         let bracket = [places[index], places[index + 1]];
                         self.dip(simd, setting, function, (bracket, four), closer - 1, breaks);
