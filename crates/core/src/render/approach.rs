@@ -90,12 +90,17 @@ impl Approach {
             Method::Tolerance(tolerance) => tolerance,
         };
         let contrast = contrast(world, (lights, sky), settings.alpha);
-        let has_raster =
-            world.shadows && sky.is_none() && Raster::serves(world, exposure.view(), lights);
+        let view = exposure.view();
+        let has_raster = || {
+            world.shadows
+                && sky.is_none()
+                && Raster::serves(world, view, lights)
+                && !any_sphere(world, &|sphere| is_large(sphere, view))
+        };
         let meets = |preview: &&Preview| {
             preview.from * contrast <= tolerance
-                && !(preview.is_for_crowds && has_raster)
                 && preview.is_for(world, exposure)
+                && !(preview.is_for_crowds && has_raster())
         };
         let Some(preview) = PREVIEWS.iter().find(meets) else {
             return Self {
@@ -148,7 +153,20 @@ fn has_smaller(world: &World, view: &View, radius: f64) -> bool {
         };
         sphere.radius() * unit < radius * distance
     };
-    world.spheres().par_iter().any(is_smaller)
+    any_sphere(world, &is_smaller)
+}
+
+/// Whether something holds for any sphere of a world.
+fn any_sphere(world: &World, holds: &(dyn Fn(&Sphere) -> bool + Sync)) -> bool {
+    world.spheres().par_iter().any(holds)
+}
+
+/// Returns whether a sphere may be seen larger than a raster takes it: the tiles that see it are left to its edges.
+fn is_large(sphere: &Sphere, view: &View) -> bool {
+    /// In pixels. Not tuned: it is the largest radius of a raster of 8 × 8 samples a pixel.
+    const LARGEST: f64 = 128.0;
+    let distance = (sphere.center() - view.camera.position).length();
+    sphere.radius() * view.pixels_per_unit().max_element() > LARGEST * distance
 }
 
 /// The largest difference between what pixels may show, in any channel, and in alpha, which has the unit of light.
