@@ -7,6 +7,8 @@ use glam::DVec3;
 use super::plane::Plane;
 use crate::hit::ball::Ball;
 use crate::model::color::Color;
+use crate::numeric::lanes::LANES;
+use crate::numeric::pair::both;
 use crate::search::light_grid::Asked;
 
 /// The largest radius on the screen, in samples. Larger balls have few edges in a tile, and single precision knows
@@ -40,6 +42,8 @@ pub(super) struct RasterBall {
     pub(super) depth: f32,
     /// Keys that differ by less may be in another order.
     pub(super) blur: f32,
+    /// All its keys are beyond this by more.
+    pub(super) least: f32,
     /// The columns and rows of the samples that may see it.
     pub(super) columns: (u32, u32),
     pub(super) rows: (u32, u32),
@@ -72,9 +76,13 @@ impl RasterBall {
                 (along * center.z + half) / product,
             ]
         };
-        let across = ends(center.x).map(|end| (end - plane.first.x) / plane.step.x);
-        let down = ends(center.y).map(|end| (end - plane.first.y) / plane.step.y);
+        let across = both(ends(center.x), |end| (end - plane.first.x) / plane.step.x);
+        let down = both(ends(center.y), |end| (end - plane.first.y) / plane.step.y);
         let depth = center.z - beginning;
+        let blur = BLUR * (depth.abs() + radius) * (1.0 + x * x + y * y);
+        let begin = depth - radius;
+        let [least, most] = plane.square;
+        let nearest = begin * if begin < 0.0 { most } else { least };
         Some(Self {
             in_world: Asked {
                 center: DVec3::ZERO,
@@ -89,11 +97,22 @@ impl RasterBall {
                 ((y - plane.middle.y) * scale) as f32,
             ],
             depth: depth as f32,
-            blur: (BLUR * (depth.abs() + radius) * (1.0 + x * x + y * y)) as f32,
+            blur: blur as f32,
+            least: (nearest - 2.0 * blur) as f32,
             columns: covered(across[0]..across[1], plane.count),
             rows: covered(down[1]..down[0], plane.count),
             albedo: Color::ZERO,
         })
+    }
+
+    /// The groups of [`LANES`] columns of samples that may see it.
+    pub(super) fn groups(&self) -> Range<usize> {
+        self.columns.0 as usize / LANES..(self.columns.1 as usize).div_ceil(LANES)
+    }
+
+    /// The rows of samples that may see it.
+    pub(super) fn rows(&self) -> Range<usize> {
+        self.rows.0 as usize..self.rows.1 as usize
     }
 }
 

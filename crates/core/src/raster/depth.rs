@@ -10,62 +10,60 @@ use crate::numeric::lanes::{LANES, f32x8};
 /// The numbers of a ball at eight samples of a row: see [`RasterBall`].
 #[derive(Clone, Copy)]
 pub(super) struct At<S: Simd> {
-    /// X, and a.
-    pub(super) x: f32x8<S>,
+    /// Y and V, which are the same for all.
+    pub(super) y: f32,
+    pub(super) up: f32,
+    /// a, and D.
     pub(super) square: f32x8<S>,
-    /// U, and D.
-    pub(super) right: f32x8<S>,
     pub(super) discriminant: f32x8<S>,
 }
 
-/// The numbers of a ball in a row of samples.
+/// The numbers of a ball in eight columns of samples: from row to row little changes, and what is met in one is met
+/// in the next.
 #[derive(Clone, Copy)]
-pub(super) struct Row<S: Simd> {
-    /// Y, and 1 + Y².
-    pub(super) y: f32x8<S>,
+pub(super) struct Columns<S: Simd> {
+    /// X, and its square.
+    pub(super) x: f32x8<S>,
     square: f32x8<S>,
-    /// V, its square, and p.x V.
-    pub(super) up: f32x8<S>,
-    up_square: f32x8<S>,
-    across: f32x8<S>,
-    scale: f32x8<S>,
-    offset: f32x8<S>,
-    at_y: f32x8<S>,
+    /// U, its square, and p.y U.
+    pub(super) right: f32x8<S>,
+    right_square: f32x8<S>,
+    along: f32x8<S>,
 }
 
-impl<S: Simd> Row<S> {
+impl<S: Simd> Columns<S> {
     #[inline(always)]
-    pub(super) fn new(simd: S, plane: &Plane, ball: &RasterBall, row: usize) -> Self {
-        let up = plane.rows.from_middle[row] * ball.scale - ball.offset[1];
-        Self {
-            y: f32x8::splat(simd, plane.rows.places[row]),
-            square: f32x8::splat(simd, 1.0 + plane.rows.squares[row]),
-            up: f32x8::splat(simd, up),
-            up_square: f32x8::splat(simd, up * up),
-            across: f32x8::splat(simd, ball.at[0] * up),
-            scale: f32x8::splat(simd, ball.scale),
-            offset: f32x8::splat(simd, ball.offset[0]),
-            at_y: f32x8::splat(simd, ball.at[1]),
-        }
-    }
-
-    /// The numbers at the samples from this column on.
-    #[inline(always)]
-    pub(super) fn at(&self, simd: S, plane: &Plane, column: usize) -> At<S> {
+    pub(super) fn new(simd: S, plane: &Plane, ball: &RasterBall, column: usize) -> Self {
         let columns = &plane.columns;
-        let square = f32x8::read(simd, &columns.squares, column) + self.square;
-        let right = f32x8::read(simd, &columns.from_middle, column) * self.scale - self.offset;
-        let turned = self.across - self.at_y * right;
-        At {
+        let right = f32x8::read(simd, &columns.from_middle, column) * ball.scale - ball.offset[0];
+        Self {
             x: f32x8::read(simd, &columns.places, column),
-            square,
+            square: f32x8::read(simd, &columns.squares, column),
             right,
-            discriminant: square - right * right - self.up_square - turned * turned,
+            right_square: right * right,
+            along: right * ball.at[1],
+        }
+    }
+
+    /// The numbers at the samples of a row.
+    #[inline(always)]
+    pub(super) fn at(&self, simd: S, plane: &Plane, ball: &RasterBall, row: usize) -> At<S> {
+        let up = plane.rows.from_middle[row] * ball.scale - ball.offset[1];
+        let square = self.square + (1.0 + plane.rows.squares[row]);
+        let turned = f32x8::splat(simd, ball.at[0] * up) - self.along;
+        At {
+            y: plane.rows.places[row],
+            up,
+            square,
+            discriminant: square - self.right_square - up * up - turned * turned,
         }
     }
 }
 
-/// Holds balls against the samples that they may cover.
+/// How many balls are held against samples until it is found out anew how far these see. Not tuned finely.
+const BALLS: usize = 8;
+
+/// Holds balls against the samples that they may cover, and finds out which of them are seen.
 #[inline(always)]
 pub(super) fn find_nearest<S: Simd>(
     simd: S,
@@ -77,10 +75,56 @@ pub(super) fn find_nearest<S: Simd>(
         #[inline(always)]
         || {
             for (number, ball) in balls.iter().enumerate() {
+                if number % BALLS == 0 && number > 0 {
+                    find_far(simd, ball.least, samples);
+                }
                 hold(simd, plane, (number as f32, ball), samples);
+            }
+            for (number, ball) in balls.iter().enumerate() {
+                samples.seen[number] = is_seen(simd, (number as f32, ball), samples);
             }
         },
     );
+}
+
+/// Finds out which blocks of samples see nothing beyond a key.
+#[inline(always)]
+fn find_far<S: Simd>(simd: S, least: f32, samples: &mut Samples) {
+    let groups = samples.stride / LANES;
+    for (block, far) in samples.far.iter_mut().enumerate() {
+        if *far <= least {
+            continue;
+        }
+        let row = block / groups * LANES;
+        let first = row * samples.stride + block % groups * LANES;
+        let mut most = f32x8::read(simd, &samples.keys, first);
+        for row in 1..LANES.min(samples.count - row) {
+            most = most.max(f32x8::read(
+                simd,
+                &samples.keys,
+                first + row * samples.stride,
+            ));
+        }
+        if !most.simd_gt(f32x8::splat(simd, least)).any_true() {
+            *far = least;
+        }
+    }
+}
+
+/// True if any sample sees a ball.
+#[inline(always)]
+fn is_seen<S: Simd>(simd: S, (number, ball): (f32, &RasterBall), samples: &Samples) -> bool {
+    let number = f32x8::splat(simd, number);
+    for group in ball.groups() {
+        for row in ball.rows() {
+            let place = row * samples.stride + group * LANES;
+            let seen = f32x8::read(simd, &samples.balls, place);
+            if seen.simd_eq(number).any_true() {
+                return true;
+            }
+        }
+    }
+    false
 }
 
 #[inline(always)]
@@ -92,27 +136,28 @@ fn hold<S: Simd>(
 ) {
     let zero = f32x8::splat(simd, 0.0);
     let number = f32x8::splat(simd, number);
-    let (depth, radius) = (
-        f32x8::splat(simd, ball.depth),
-        f32x8::splat(simd, ball.radius),
-    );
     let (blur, one) = (f32x8::splat(simd, ball.blur), f32x8::splat(simd, 1.0));
-    let first = ball.columns.0 as usize / LANES * LANES;
-    for row in ball.rows.0 as usize..ball.rows.1 as usize {
-        let of_row = Row::new(simd, plane, ball, row);
-        for column in (first..ball.columns.1 as usize).step_by(LANES) {
+    let of_row = samples.stride / LANES;
+    for group in ball.groups() {
+        let column = group * LANES;
+        let columns = Columns::new(simd, plane, ball, column);
+        for row in ball.rows() {
+            if samples.far[row / LANES * of_row + group] <= ball.least {
+                continue;
+            }
             let At {
-                x,
+                y,
+                up,
                 square,
-                right,
                 discriminant,
-            } = of_row.at(simd, plane, column);
+            } = columns.at(simd, plane, ball, row);
             let met = discriminant.simd_gt(zero);
             if !met.any_true() {
                 continue;
             }
             let root = discriminant.max(zero).sqrt();
-            let key = depth * square - radius * (x * right + of_row.y * of_row.up + root);
+            let key =
+                square * ball.depth - (columns.x * columns.right + y * up + root) * ball.radius;
             let place = row * samples.stride + column;
             let known = f32x8::read(simd, &samples.keys, place);
             let apart = known - key;

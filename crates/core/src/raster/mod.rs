@@ -13,6 +13,7 @@
 
 mod ball;
 mod depth;
+mod diagonals;
 mod judge;
 mod lit;
 mod occluders;
@@ -155,11 +156,11 @@ impl<'scene> Raster<'scene> {
             return None;
         }
         let layers = self.channels.count() + usize::from(self.has_alpha);
-        samples.reset(&plane, layers);
+        let background = self.background.extend(0.0).as_vec4().to_array();
+        samples.reset(&plane, balls.len(), &background[..layers]);
         dispatch!(self.level, simd => {
             depth::find_nearest(simd, &plane, balls, samples);
         });
-        samples.find_seen(balls.len());
         occluders.reset();
         for (number, ball) in balls.iter().enumerate() {
             if !samples.sees(number) {
@@ -172,7 +173,6 @@ impl<'scene> Raster<'scene> {
                 self.shade(simd, &plane, (number as f32, ball), occluders, samples);
             });
         }
-        self.fill_background(samples);
         let weights = self.weights(side, balls, samples);
         let mut pixels = judge::pixels(self.level, samples, &weights);
         for pixel in &mut pixels {
@@ -185,10 +185,12 @@ impl<'scene> Raster<'scene> {
     /// The number of different balls that the samples of each pixel of the last tile see.
     pub(crate) fn balls_seen(side: u32, scratch: &Scratch) -> [usize; PIXELS] {
         const SIDE: usize = Tile::SIDE as usize;
-        std::array::from_fn(|place| {
+        let mut seen = [0; PIXELS];
+        for (place, seen) in seen.iter_mut().enumerate() {
             let (column, row) = (place % SIDE, place / SIDE);
-            scratch.samples.balls_of_pixel(side as usize, column, row)
-        })
+            *seen = scratch.samples.balls_of_pixel(side as usize, column, row);
+        }
+        seen
     }
 
     /// Gathers the balls of a tile; false if some are not for a raster.

@@ -18,6 +18,8 @@ pub(super) struct Plane {
     /// The first sample, and the way to the next one, which is downward.
     pub(super) first: DVec2,
     pub(super) step: DVec2,
+    /// The least and the largest 1 + X² + Y² of its samples, or less and more.
+    pub(super) square: [f64; 2],
     /// For each column, and for each row, its place, its square, and its way from the middle; up is positive.
     pub(super) columns: Lines,
     pub(super) rows: Lines,
@@ -50,19 +52,22 @@ impl Plane {
         let rows = Lines::new(count, middle.y, |number| {
             place(col, row.wrapping_add(number)).y
         });
+        let step = view.pixel_size() / distance / f64::from(side) * DVec2::new(1.0, -1.0);
+        let half = (step * count as f64).abs();
+        let [least, most] = [middle.abs() - half, middle.abs() + half];
+        let least = least.max(DVec2::ZERO);
         Self {
             count,
             stride,
             middle,
             first: corner,
-            step: view.pixel_size() / distance / f64::from(side) * DVec2::new(1.0, -1.0),
+            step,
+            square: [1.0 + least.length_squared(), 1.0 + most.length_squared()],
             columns,
             rows,
         }
     }
-}
 
-impl Plane {
     /// True if no sample is so far from the axis of view that single precision knows little of it.
     pub(super) fn is_moderate(&self) -> bool {
         /// In distances of the plane. Not tuned: it is a field of view of 165 degrees.

@@ -1,6 +1,7 @@
 //! The samples of a tile, number by number.
 
 use super::plane::Plane;
+use crate::numeric::lanes::LANES;
 
 /// What the samples of a tile see. Rows are as far apart as the plane's stride.
 #[derive(Debug, Default)]
@@ -19,16 +20,18 @@ pub(super) struct Samples {
     pub(super) kept: Vec<f32>,
     /// A number that is the same where the same balls keep the same light.
     pub(super) occluders: Vec<f32>,
+    /// For blocks of [`LANES`] × [`LANES`] samples, row by row: no key is more.
+    pub(super) far: Vec<f32>,
     /// For each ball whether any sample sees it.
-    seen: Vec<bool>,
+    pub(super) seen: Vec<bool>,
 }
 
 /// No ball.
 pub(super) const NONE: f32 = -1.0;
 
 impl Samples {
-    /// Makes place for the samples of a tile, which have seen nothing, with so many layers of light.
-    pub(super) fn reset(&mut self, plane: &Plane, layers: usize) {
+    /// Makes place for the samples of a tile, which see the background's light in each layer and none of so many balls.
+    pub(super) fn reset(&mut self, plane: &Plane, balls: usize, background: &[f32]) {
         self.count = plane.count;
         self.stride = plane.stride;
         let places = plane.count * plane.stride;
@@ -41,23 +44,19 @@ impl Samples {
         fill(&mut self.doubts, 0.0);
         fill(&mut self.kept, 0.0);
         fill(&mut self.occluders, 0.0);
-        self.light.resize(layers, Vec::new());
-        for layer in &mut self.light {
-            fill(layer, 0.0);
+        self.light.resize(background.len(), Vec::new());
+        for (layer, &background) in self.light.iter_mut().zip(background) {
+            fill(layer, background);
         }
-    }
-
-    /// Finds out which of so many balls are seen.
-    pub(super) fn find_seen(&mut self, count: usize) {
+        // Nothing comes before what is behind the last sample of a row.
+        for row in self.keys.chunks_exact_mut(self.stride) {
+            row[self.count..].fill(f32::NEG_INFINITY);
+        }
+        self.far.clear();
+        let blocks = plane.count.div_ceil(LANES) * (plane.stride / LANES);
+        self.far.resize(blocks, f32::INFINITY);
         self.seen.clear();
-        self.seen.resize(count, false);
-        for row in self.balls.chunks_exact(self.stride) {
-            for &ball in &row[..self.count] {
-                if ball >= 0.0 {
-                    self.seen[ball as usize] = true;
-                }
-            }
-        }
+        self.seen.resize(balls, false);
     }
 
     /// The number of different balls that the samples of a pixel see.

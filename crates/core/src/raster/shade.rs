@@ -4,10 +4,10 @@ use fearless_simd::Simd;
 
 use super::Raster;
 use super::ball::RasterBall;
-use super::depth::{At, Row};
+use super::depth::{At, Columns};
 use super::occluders::Occluders;
 use super::plane::Plane;
-use super::samples::{NONE, Samples};
+use super::samples::Samples;
 use crate::numeric::lanes::{LANES, f32x8, mask32x8};
 
 impl Raster<'_> {
@@ -24,19 +24,19 @@ impl Raster<'_> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let first = ball.columns.0 as usize / LANES * LANES;
                 let number = f32x8::splat(simd, number);
-                for row in ball.rows.0 as usize..ball.rows.1 as usize {
-                    let of_row = Row::new(simd, plane, ball, row);
-                    for column in (first..ball.columns.1 as usize).step_by(LANES) {
+                for group in ball.groups() {
+                    let column = group * LANES;
+                    let columns = Columns::new(simd, plane, ball, column);
+                    for row in ball.rows() {
                         let place = row * samples.stride + column;
                         let seen = f32x8::read(simd, &samples.balls, place);
                         let seen = seen.simd_eq(number);
                         if seen.any_true() {
-                            let at = of_row.at(simd, plane, column);
+                            let at = columns.at(simd, plane, ball, row);
                             self.shade_eight(
                                 simd,
-                                (&of_row, at),
+                                (&columns, at),
                                 (ball, occluders),
                                 (place, seen),
                                 samples,
@@ -53,15 +53,16 @@ impl Raster<'_> {
     fn shade_eight<S: Simd>(
         &self,
         simd: S,
-        (row, at): (&Row<S>, At<S>),
+        (columns, at): (&Columns<S>, At<S>),
         (ball, occluders): (&RasterBall, &Occluders),
         (place, seen): (usize, mask32x8<S>),
         samples: &mut Samples,
     ) {
         let zero = f32x8::splat(simd, 0.0);
         let root = at.discriminant.max(zero).sqrt();
-        let forward = zero - (at.x * at.right + row.y * row.up + root) * at.square.reciprocal();
-        let normal = [at.right + forward * at.x, row.up + forward * row.y, forward];
+        let Columns { x, right, .. } = *columns;
+        let forward = zero - (x * right + at.y * at.up + root) * at.square.reciprocal();
+        let normal = [right + forward * x, forward * at.y + at.up, forward];
         let channels = self.channels.count();
         let mut light = [zero; 3];
         for (light, ambient) in light.iter_mut().zip(self.ambient.to_array()) {
@@ -111,20 +112,9 @@ impl Raster<'_> {
             let one = f32x8::splat(simd, 1.0);
             write(simd, seen, one, (&mut samples.light[channels], place));
         }
-        write(simd, seen, kept, (&mut samples.kept, place));
-        write(simd, seen, names, (&mut samples.occluders, place));
-    }
-
-    /// Gives the light of the background to all samples that see no ball.
-    pub(super) fn fill_background(&self, samples: &mut Samples) {
-        for channel in 0..self.channels.count() {
-            let background = self.background[channel] as f32;
-            let light = samples.light[channel].iter_mut();
-            for (light, &ball) in light.zip(&samples.balls) {
-                if ball == NONE {
-                    *light = background;
-                }
-            }
+        if !occluders.list.is_empty() {
+            write(simd, seen, kept, (&mut samples.kept, place));
+            write(simd, seen, names, (&mut samples.occluders, place));
         }
     }
 }
