@@ -3,7 +3,8 @@
 //! An edge that crosses the way between two neighbors is somewhere on it: the mean is off by a part of what they
 //! differ by, times the share that a sample has in the pixel. The errors of many edges add up as their squares do.
 //! An edge along the grid lies between the same two rows or columns over a part of the pixel: there differences are
-//! summed before they are squared. So they are along the diagonals ([`diagonals`](super::diagonals)). Ways over the border of the pixel count half: half of their edges are in it.
+//! summed before they are squared. So they are along the diagonals: see [`Diagonals`]. Ways over the border of the
+//! pixel count half: half of their edges are in it.
 //!
 //! Neighbors that see different balls are taken to differ at least by a part of the contrast, whatever their light:
 //! a third ball or a shadow may lie between them.
