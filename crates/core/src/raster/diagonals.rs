@@ -26,14 +26,14 @@ impl Diagonals {
 
     /// Adds the ways in a row of so many pixels: the differences on them, and the light of strips there.
     pub(super) fn add(&mut self, (changes, strips): (&[f32], &[f32]), side: usize, row: usize) {
-        let row_sums = &mut self.row;
+        let numbers = &mut self.row;
         for pixel in 0..self.pixels {
             let ways = pixel * side..(pixel + 1) * side + 1;
             for kind in 0..KINDS {
                 let from = if kind == 2 { strips } else { changes };
-                row_sums.clear();
-                row_sums.extend_from_slice(&from[ways.clone()]);
-                for number in row_sums.iter_mut() {
+                numbers.clear();
+                numbers.extend_from_slice(&from[ways.clone()]);
+                for number in numbers.iter_mut() {
                     *number = match kind {
                         0 => number.max(0.0),
                         1 => number.min(0.0),
@@ -41,12 +41,12 @@ impl Diagonals {
                     };
                 }
                 // Half of what lies across the border is in the pixel.
-                row_sums[0] *= 0.5;
-                row_sums[side] *= 0.5;
+                numbers[0] *= 0.5;
+                numbers[side] *= 0.5;
                 let first = (pixel * KINDS + kind) * 2 * self.count;
                 for offset in [side - row, self.count + row] {
                     let sums = &mut self.sums[first + offset..];
-                    add_to(&mut sums[..=side], row_sums);
+                    add_to(&mut sums[..=side], numbers);
                 }
             }
         }

@@ -166,7 +166,9 @@ fn of_row(
     let mut diagonals = [0.0; SIDE];
     let has_diagonals = side >= FEWEST_OF_DIAGONALS;
     sums.clear();
-    sums.diagonals.clear(SIDE, side);
+    if has_diagonals {
+        sums.diagonals.clear(SIDE, side);
+    }
     for (number, row) in rows.clone().enumerate() {
         sums.add(level, (samples, weights), (row * stride, 1));
         if has_diagonals {
