@@ -166,7 +166,7 @@ impl<'scene> Raster<'scene> {
             if !samples.sees(number) {
                 continue;
             }
-            if !occluders.find(&self.suns, &self.index.visibility, &self.view, ball) {
+            if !occluders.find(&self.suns, &self.index.visibility, ball) {
                 return None;
             }
             dispatch!(self.level, simd => {

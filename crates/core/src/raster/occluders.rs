@@ -2,11 +2,8 @@
 
 use super::ball::RasterBall;
 use super::lit::Sun;
-use crate::model::view::View;
-use crate::picture::tile::Tile;
 use crate::search::discs::Disc;
 use crate::search::light_grid::{self, Asked, Higher};
-use crate::search::shadow_cells::ShadowCells;
 use crate::search::visibility::Visibility;
 
 /// More occluders are left to others.
@@ -18,7 +15,6 @@ const LARGEST: f64 = 1024.0;
 /// The spheres that may keep light from one ball.
 #[derive(Debug, Default)]
 pub(super) struct Occluders {
-    cells: ShadowCells,
     found: Vec<Disc>,
     higher: light_grid::Found,
     /// For each light the end of its occluders.
@@ -49,7 +45,6 @@ impl Occluders {
         &mut self,
         suns: &[Sun],
         visibility: &Visibility<'_>,
-        view: &View,
         ball: &RasterBall,
     ) -> bool {
         self.reset();
@@ -58,12 +53,11 @@ impl Occluders {
             if sun.has_shadows {
                 self.higher.list.clear();
                 let light = visibility.light(sun.light);
-                let is_found = visibility.is_moderate()
-                    && light.grid().is_some_and(|grid| {
-                        grid.find(visibility.spheres(), &ball.in_world, &mut self.higher)
-                    });
+                let is_found = light.grid().is_some_and(|grid| {
+                    grid.find(visibility.spheres(), &ball.in_world, &mut self.higher)
+                });
                 if !is_found {
-                    self.look_up(sun, visibility, view, index as usize);
+                    self.look_up(sun, visibility, index as usize);
                 }
                 if self.higher.list.len() > MOST {
                     return false;
@@ -89,24 +83,15 @@ impl Occluders {
     }
 
     /// Looks up what may darken a sphere, where no cells serve.
-    fn look_up(&mut self, sun: &Sun, visibility: &Visibility<'_>, view: &View, index: usize) {
+    fn look_up(&mut self, sun: &Sun, visibility: &Visibility<'_>, index: usize) {
         let spheres = visibility.spheres();
         let own = &spheres[index];
-        let side = view.pixel_size().max_element() / view.magnification()
-            * f64::from(Tile::SIDE)
-            * (own.center() - view.camera.position).abs().max_element();
         let light = visibility.light(sun.light);
-        self.found.clear();
-        let asked = (sun.light, index, side);
         let discs = if let Some(kept) = light.of_sphere(index) {
             kept
         } else {
-            let is_found =
-                !light.keeps() && self.cells.discs_before(visibility, asked, &mut self.found);
-            if !is_found {
-                self.found.clear();
-                light.find(index, &[own.center()], own.radius(), &mut self.found);
-            }
+            self.found.clear();
+            light.find(index, &[own.center()], own.radius(), &mut self.found);
             &self.found
         };
         self.higher.list.extend(discs.iter().map(|disc| {

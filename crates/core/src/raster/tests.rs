@@ -15,6 +15,9 @@ use crate::search::grid::RayPoints;
 use crate::search::tests::Random;
 use crate::search::visibility::Visibility;
 
+/// Rows of samples of which fewer make up for cells across a light.
+const ENOUGH: u64 = 1 << 20;
+
 /// A crowd of balls of several sizes and colors.
 fn world(count: usize, lights: usize, random: &mut Random) -> World {
     let mut world = World::new();
@@ -97,6 +100,7 @@ fn samples_are_those_of_rays() {
             world.shadows = shadows;
             let view = view(case % 2);
             let visibility = Visibility::new(&world);
+            visibility.expect_rows(ENOUGH);
             let index = ViewIndex::new(&visibility, &view, RayPoints::All);
             let raster = Raster::new(&world, &view, &index, alpha).expect("a crowd");
             let sides = NonZeroU32::new(side).unwrap();
@@ -133,6 +137,7 @@ fn errors_are_what_neighbors_tell() {
         let world = world(1500, 1 + case % 2, &mut random);
         let view = view(0);
         let visibility = Visibility::new(&world);
+        visibility.expect_rows(ENOUGH);
         let index = ViewIndex::new(&visibility, &view, RayPoints::All);
         let raster = Raster::new(&world, &view, &index, case == 3).expect("a crowd");
         let fine = NonZeroU32::new(64).unwrap();
@@ -191,6 +196,7 @@ fn balls_that_reach_across_a_corner_are_claimed() {
     let area = 0.5 * (libm::asin(0.8) - libm::asin(0.6)) - 0.6 * 0.2;
     let area = area / f64::from(side * side);
     let visibility = Visibility::new(&world);
+    visibility.expect_rows(ENOUGH);
     let index = ViewIndex::new(&visibility, &view, RayPoints::All);
     let raster = Raster::new(&world, &view, &index, false).expect("a crowd");
     let mut scratch = Scratch::default();
@@ -244,6 +250,7 @@ fn strips_of_what_is_brighter_are_claimed() {
         }
     }
     let visibility = Visibility::new(&world);
+    visibility.expect_rows(ENOUGH);
     let index = ViewIndex::new(&visibility, &view, RayPoints::All);
     let raster = Raster::new(&world, &view, &index, false).expect("a crowd");
     let fine = NonZeroU32::new(64).unwrap();
@@ -281,6 +288,7 @@ fn the_same_bits_on_every_processor_and_in_every_unit() {
     let world = world(1200, 2, &mut Random(7));
     let view = view(1);
     let visibility = Visibility::new(&world);
+    visibility.expect_rows(ENOUGH);
     let index = ViewIndex::new(&visibility, &view, RayPoints::All);
     let mut raster = Raster::new(&world, &view, &index, false).expect("a crowd");
     let first = bits(&raster, &view);
@@ -300,6 +308,7 @@ fn the_same_bits_on_every_processor_and_in_every_unit() {
         bright.lights.extend(Light::directional(toward, intensity));
     }
     let visibility = Visibility::new(&bright);
+    visibility.expect_rows(ENOUGH);
     let index = ViewIndex::new(&visibility, &view, RayPoints::All);
     let raster = Raster::new(&bright, &view, &index, false).expect("a crowd");
     let dimmed = |bits: u64| (f64::from_bits(bits) / factor).to_bits();
@@ -331,6 +340,7 @@ fn balls_that_coincide_are_left_to_others() {
     }
     let view = view(0);
     let visibility = Visibility::new(&world);
+    visibility.expect_rows(ENOUGH);
     let index = ViewIndex::new(&visibility, &view, RayPoints::All);
     let raster = Raster::new(&world, &view, &index, false).expect("a crowd");
     let (mut scratch, mut covered) = (Scratch::default(), 0);
@@ -353,6 +363,7 @@ fn what_it_does_not_know_is_left_to_others() {
         let mut world = world(1500, 1, &mut Random(13));
         change(&mut world);
         let visibility = Visibility::new(&world);
+        visibility.expect_rows(ENOUGH);
         let index = ViewIndex::new(&visibility, &view, RayPoints::All);
         let raster = Raster::new(&world, &view, &index, false)?;
         let middle = tiles(&view)[5];
@@ -412,6 +423,7 @@ fn light_between_a_shadow_and_where_a_ball_turns_away_is_claimed() {
         }
     }
     let visibility = Visibility::new(&world);
+    visibility.expect_rows(ENOUGH);
     let index = ViewIndex::new(&visibility, &view, RayPoints::All);
     let raster = Raster::new(&world, &view, &index, false).expect("a crowd");
     let fine = NonZeroU32::new(64).unwrap();

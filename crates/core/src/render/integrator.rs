@@ -72,6 +72,11 @@ impl<'scene> Integrator<'scene> {
         let method = Approach::of(world, light, exposure, settings).method;
         let alpha = settings.alpha;
         let view = exposure.view();
+        if let Method::Samples(side) = method {
+            let pixels = u64::from(view.width) * u64::from(view.height);
+            let rows = pixels.saturating_mul(side.get().into());
+            visibility.of_view(view).expect_rows(rows);
+        }
         if let Some(motion) = exposure.motion() {
             let instants = Instants::new(visibility, view, motion, method);
             return match method {

@@ -2,7 +2,7 @@
 
 use super::tile_balls::TileBall;
 use crate::search::discs::Disc;
-use crate::search::shadow_cells::ShadowCells;
+use crate::search::light_grid::Found;
 use crate::search::visibility::Visibility;
 
 /// The discs before the balls of a tile, for each light, once somebody asked for them.
@@ -12,6 +12,8 @@ pub(super) struct BallDiscs {
     /// For each ball and light.
     known: Vec<Before>,
     discs: Vec<Disc>,
+    /// Memory to work in.
+    found: Found,
 }
 
 /// The discs that may keep a light from a ball, as a range of all discs.
@@ -19,7 +21,7 @@ pub(super) struct BallDiscs {
 enum Before {
     Unasked,
     Discs(u32, u32),
-    /// Too many, or of several cells.
+    /// Too many, or not known well.
     Unknown,
 }
 
@@ -30,6 +32,7 @@ impl BallDiscs {
             lights,
             known: Vec::new(),
             discs: Vec::new(),
+            found: Found::default(),
         }
     }
 
@@ -42,22 +45,25 @@ impl BallDiscs {
         }
     }
 
-    /// Finds the discs before a ball, unless it was asked about before; returns whether they are known. `side` is about
-    /// that of a tile where the ball lies.
+    /// Finds the discs before a ball, unless it was asked about before; returns whether they are known.
     pub(super) fn find(
         &mut self,
         visibility: &Visibility<'_>,
-        cells: &mut ShadowCells,
-        (light, ball, side): (usize, &TileBall, f64),
+        light: usize,
+        ball: &TileBall,
     ) -> bool {
+        let Some(grid) = visibility.light(light).grid() else {
+            return false;
+        };
         let place = self.place(light, ball);
         if place >= self.known.len() {
             self.known.resize(place + 1, Before::Unasked);
         }
         if let Before::Unasked = self.known[place] {
             let first = self.discs.len();
-            let asked = (light, ball.index(), side);
-            self.known[place] = if cells.discs_before(visibility, asked, &mut self.discs) {
+            let (spheres, index) = (visibility.spheres(), ball.index());
+            let is_found = grid.discs_before(spheres, index, &mut self.found, &mut self.discs);
+            self.known[place] = if is_found {
                 Before::Discs(first as u32, self.discs.len() as u32)
             } else {
                 self.discs.truncate(first);

@@ -109,7 +109,9 @@ impl<'scene> Shadows<'scene> {
                 && if discs.keeps() {
                     has_many || discs.knows(sphere)
                 } else {
-                    has_many && self.scale.are_samples_dense && self.finds_discs(index, group.ball)
+                    has_many
+                        && self.scale.are_samples_dense
+                        && self.of_balls.find(self.visibility, index, group.ball)
                 };
             let mut alone = lanes;
             if side_by_side {
@@ -119,7 +121,7 @@ impl<'scene> Shadows<'scene> {
                 alone &= !lit.errors.simd_le(allowance).to_bitmask();
             }
             if alone != 0 {
-                reached &= !self.ask_all(simd, &lit, index, group.ball, alone);
+                reached &= !self.ask_all(&lit, index, group.ball, alone);
                 lanes &= !alone;
             }
             if lanes != 0 {
@@ -213,13 +215,6 @@ impl<'scene> Shadows<'scene> {
         darkened(simd, visibility, (lit, light), discs, asked)
     }
 
-    /// True if the discs are known that may darken points of a ball, in a world too large to keep them.
-    fn finds_discs(&mut self, light: usize, ball: &TileBall) -> bool {
-        let distance = ball.ball.to_center.abs().max_element() * self.scale.length;
-        let asked = (light, ball, self.side(distance));
-        self.of_balls.find(self.visibility, self.cells, asked)
-    }
-
     /// About the side of a tile at a distance.
     fn side(&self, distance: f64) -> f64 {
         self.scale.tile_side
@@ -276,33 +271,27 @@ impl<'scene> Shadows<'scene> {
     #[inline(never)]
     fn ask_all<S: Simd>(
         &mut self,
-        simd: S,
         lit: &LitPoints<S>,
         light: usize,
         ball: &TileBall,
         asked: u64,
     ) -> u64 {
         let center = self.viewpoint + ball.ball.to_center * self.scale.length;
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let mut dark = 0;
-                for lane in set_bits(asked) {
-                    let point = lit.points.lane(lane);
-                    let distance = (point - self.viewpoint).abs().max_element();
-                    let point = SurfacePoint {
-                        point,
-                        error: lit.errors[lane],
-                        sphere: ball.index(),
-                        center,
-                        side: self.side(distance),
-                    };
-                    let is_dark = self.cells.is_blocked(simd, self.visibility, light, &point);
-                    dark |= u64::from(is_dark) << lane;
-                }
-                dark
-            },
-        )
+        let mut dark = 0;
+        for lane in set_bits(asked) {
+            let point = lit.points.lane(lane);
+            let distance = (point - self.viewpoint).abs().max_element();
+            let point = SurfacePoint {
+                point,
+                error: lit.errors[lane],
+                sphere: ball.index(),
+                center,
+                side: self.side(distance),
+            };
+            let is_dark = self.cells.is_blocked(self.visibility, light, &point);
+            dark |= u64::from(is_dark) << lane;
+        }
+        dark
     }
 }
 

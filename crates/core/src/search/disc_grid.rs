@@ -1,6 +1,6 @@
 //! Spheres as a light sees them, eight side by side, sorted into squares across the light.
 
-use fearless_simd::Simd;
+use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec2;
 
 use crate::numeric::lanes::{LANES, f32x8};
@@ -45,7 +45,7 @@ const ROUNDING: f64 = 2.0 * f32::EPSILON as f64;
 
 /// A number in single precision that is not less; of what is no number, that.
 #[inline(always)]
-fn up(number: f64) -> f32 {
+pub(super) fn up(number: f64) -> f32 {
     (number + number.abs() * ROUNDING) as f32
 }
 
@@ -60,16 +60,6 @@ pub(super) struct PointBelow {
     pub(super) around: f64,
     /// True if it lies above the center of its own sphere for certain.
     pub(super) is_above_own: bool,
-}
-
-/// A sphere below a light.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SphereBelow {
-    /// The place of its center across the light.
-    pub(super) place: DVec2,
-    /// Its points lie no farther from there, and no lower than this along the light.
-    pub(super) reach: f64,
-    pub(super) lowest: f64,
 }
 
 /// A square across the light, and where a cell above it begins. Squares of its side times [`ROUNDING`] are
@@ -195,48 +185,6 @@ impl DiscGrid {
         self.starts[0] = 0;
     }
 
-    /// Calls `take` with each disc that may keep the light from points of a sphere whose disc lies in the square: its
-    /// center, a radius with which it contains the true disc, and the sphere's index. Some discs come more than once.
-    #[inline(always)]
-    pub(super) fn each_before<S: Simd>(
-        &self,
-        simd: S,
-        sphere: &SphereBelow,
-        mut take: impl FnMut(DVec2, f64, u32),
-    ) {
-        /// More than the rounding of a sum of squares and of a square.
-        const WIDER: f32 = 1.0 + 16.0 * f32::EPSILON;
-        let place = sphere.place - self.low;
-        let last = f64::from(self.parts - 1);
-        let first = ((place - sphere.reach) * self.on_unit).clamp(DVec2::ZERO, DVec2::splat(last));
-        let end = ((place + sphere.reach) * self.on_unit).clamp(DVec2::ZERO, DVec2::splat(last));
-        let (x, y) = (place.x as f32, place.y as f32);
-        let reach = up(sphere.reach + self.rounding);
-        let lowest = -up(self.bottom - sphere.lowest);
-        for row in first.y as u32..=end.y as u32 {
-            for column in first.x as u32..=end.x as u32 {
-                let part = (row * self.parts + column) as usize;
-                let groups = self.starts[part] as usize..self.starts[part + 1] as usize;
-                for group in &self.groups[groups] {
-                    let aside = f32x8::from_array(simd, group.x) - x;
-                    let above = f32x8::from_array(simd, group.y) - y;
-                    let reach = (f32x8::from_array(simd, group.radius) + reach) * WIDER;
-                    let top = f32x8::from_array(simd, group.top);
-                    let distance_sq = aside * aside + above * above;
-                    let is_clear = distance_sq.simd_gt(reach * reach) | top.simd_lt(lowest);
-                    let mut left = !(is_clear.to_bitmask() as u8);
-                    while left != 0 {
-                        let lane = left.trailing_zeros() as usize;
-                        let center = DVec2::new(f64::from(group.x[lane]), f64::from(group.y[lane]));
-                        let radius = f64::from(group.radius[lane]);
-                        take(self.low + center, radius, group.sphere[lane]);
-                        left &= left - 1;
-                    }
-                }
-            }
-        }
-    }
-
     /// The first and the last part to either side that a disc reaches into.
     #[inline(always)]
     fn reached(&self, disc: &HighDisc, margin: f64) -> Reached {
@@ -256,12 +204,21 @@ impl DiscGrid {
     ///
     /// It does for certain where its center lies ahead and the ray passes nearer to that than the radius,
     /// with whatever all of it is off by.
+    pub(super) fn any(
+        &self,
+        level: Level,
+        point: &PointBelow,
+        holds: &mut dyn FnMut(usize) -> bool,
+    ) -> bool {
+        dispatch!(level, simd => self.any_lanes(simd, point, holds))
+    }
+
     #[inline(always)]
-    pub(super) fn any<S: Simd>(
+    fn any_lanes<S: Simd>(
         &self,
         simd: S,
         point: &PointBelow,
-        mut holds: impl FnMut(usize) -> bool,
+        holds: &mut dyn FnMut(usize) -> bool,
     ) -> bool {
         /// More than the rounding of a sum of squares and of a square.
         const WIDER: f32 = 1.0 + 16.0 * f32::EPSILON;

@@ -1,5 +1,6 @@
 //! The spheres that may keep a light from one sphere, as discs across the light.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use glam::{DVec2, DVec3};
@@ -37,8 +38,16 @@ pub(crate) struct DiscCache<'world> {
     occluders: Occluders<'world>,
     /// One for each sphere, or none in worlds of very many; copies share what they find.
     kept: Arc<[OnceLock<Kept>]>,
-    /// The spheres in cells, if they serve; copies share them.
-    grid: Arc<OnceLock<Option<LightGrid>>>,
+    grid: Arc<Cells>,
+}
+
+/// The spheres in cells, once enough rays ask for them; copies share them.
+#[derive(Debug, Default)]
+struct Cells {
+    /// The rows of samples, one for each pixel, that were to be asked for so far.
+    rows: AtomicU64,
+    /// None where they do not serve.
+    grid: OnceLock<Option<LightGrid>>,
 }
 
 /// The largest error of points of a sphere where its discs are asked for.
@@ -124,13 +133,30 @@ impl<'world> DiscCache<'world> {
         }));
     }
 
-    /// The spheres in cells across the light, where that serves; their lengths have to be moderate.
+    /// The spheres in cells across the light, where that serves, and once it pays.
     pub(crate) fn grid(&self) -> Option<&LightGrid> {
-        let occluders = &self.occluders;
-        let (right, up) = occluders.axes();
-        let axes = [right, up, occluders.toward()];
-        let find = || LightGrid::new(occluders.spheres(), axes);
-        self.grid.get_or_init(find).as_ref()
+        self.grid.grid.get()?.as_ref()
+    }
+
+    /// Lists the spheres in cells across the light, if so many more rows of samples, one for each pixel, make up for it; the
+    /// spheres' lengths have to be moderate.
+    ///
+    /// That was measured with a million: cells save a row as much time as they cost a sphere, by and large. So they never cost
+    /// much more than they save.
+    ///
+    /// Not on the first demand: other threads would wait for the one that is asked first, and tasks that this one takes
+    /// over while it waits for others would ask again.
+    pub(super) fn expect(&self, rows: u64) {
+        let cells = &*self.grid;
+        let spheres = self.occluders.spheres();
+        let before = cells.rows.fetch_add(rows, Ordering::Relaxed);
+        let pays = before.saturating_add(rows) >= spheres.len() as u64;
+        if pays && cells.grid.get().is_none() {
+            let (right, up) = self.occluders.axes();
+            let grid = LightGrid::new(spheres, [right, up, self.occluders.toward()]);
+            // Somebody else may have been faster.
+            let _ = cells.grid.set(grid);
+        }
     }
 
     /// The axes of the plane across the light.

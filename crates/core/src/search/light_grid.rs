@@ -1,21 +1,26 @@
-//! The spheres of a crowd in cells across a light, to find what may darken a small one.
+//! The spheres of a crowd in cells across a light, to find what may darken a point, or a small sphere.
 //!
 //! Each sphere is listed once, in the cell of its center, with its numbers beside it in single precision: what may darken
 //! a sphere lies in the few cells around its own, and is read in the order of memory. The spheres of a cell are listed by
 //! layers, the highest toward the light first. A few of the largest are in a list of their own, so that cells are as large
-//! as the others ask for.
+//! as the others ask for. [`fill`] lists them, [`points`] asks for points, and [`around`] for whole spheres.
 
-use fearless_simd::{Level, Simd, dispatch};
-use glam::{DVec3, Vec3};
+mod around;
+mod fill;
+mod points;
 
+use fearless_simd::Level;
+use glam::DVec3;
+
+pub(crate) use self::around::{Asked, Found, Higher};
 use super::occluders::slack;
 use crate::model::sphere::Sphere;
-use crate::numeric::bits::set_bits;
-use crate::numeric::lanes::{LANES, f32x8};
+use crate::numeric::lanes::LANES;
 use crate::numeric::pair::both;
 
-/// Worlds of fewer spheres need no cells, and in those of more the cells take too much memory: 20 bytes a sphere.
-const COUNTS: std::ops::RangeInclusive<usize> = 256..=1 << 23;
+/// Worlds of fewer spheres need no cells, and in those of more the cells take too much memory: 20 bytes a sphere, and 48 more
+/// while they are filled.
+const COUNTS: std::ops::RangeInclusive<usize> = 256..=1 << 24;
 
 /// The most spheres that are too large for the cells. Not tuned.
 const MOST_LARGE: usize = 16;
@@ -24,14 +29,8 @@ const MOST_LARGE: usize = 16;
 /// million that fill a ninth of a cube have 36.
 const MOST_IN_CELL: u64 = 256;
 
-/// The place of a sphere that is in no cell.
-const NOWHERE: u32 = u32::MAX;
-
 /// The most layers of a cell. Not tuned.
 const MOST_LAYERS: usize = 64;
-
-/// The cells that a search may take: nine where a sphere is no larger than those of the cells. Not tuned.
-const MOST_CELLS: usize = 64;
 
 /// The spheres as a directional light sees them, cell by cell.
 #[derive(Debug)]
@@ -48,42 +47,20 @@ pub(crate) struct LightGrid {
     layers: usize,
     /// The first sphere of each layer, cell by cell, and row by row; one more for the end.
     starts: Vec<u32>,
-    /// The places of the centers in their cells, their heights, and the radii; some more than there are spheres.
-    places: [Vec<f32>; 2],
-    heights: Vec<f32>,
-    radii: Vec<f32>,
+    blocks: Vec<Block>,
+    /// The indices of the spheres of the blocks.
     indices: Vec<u32>,
     /// The indices of those that are too large.
     large: Vec<u32>,
     /// The least radius of a sphere whose occluders are known well enough.
     least: f64,
+    /// More than rounding moves the numbers of a block by, and points and spheres across the light.
+    rounding: f64,
     level: Level,
 }
 
-/// The sphere that is asked about; its center may be off by a rounding.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Asked {
-    pub(crate) center: DVec3,
-    pub(crate) radius: f64,
-    pub(crate) index: u32,
-}
-
-/// A sphere that lies higher than the asked one, and may darken it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Higher {
-    /// The way to it from center to center: to the right and up across the light, and toward it.
-    pub(crate) way: DVec3,
-    pub(crate) radius: f64,
-    /// The sphere's index.
-    pub(crate) index: u32,
-}
-
-/// What was found, and memory to work in.
-#[derive(Debug, Default)]
-pub(crate) struct Found {
-    pub(crate) list: Vec<Higher>,
-    masks: Vec<u8>,
-}
+/// Eight spheres: the places of their centers in their cells, to the right and up, their heights, and their radii.
+type Block = [[f32; LANES]; 4];
 
 impl LightGrid {
     /// The cells of spheres of moderate lengths, if they serve; the light's axes are those across it and toward it.
@@ -111,16 +88,15 @@ impl LightGrid {
             height: size.z.max(f64::MIN_POSITIVE) / layers as f64,
             columns,
             layers,
-            starts: vec![0; columns * rows * layers + 2],
-            places: [Vec::new(), Vec::new()],
-            heights: Vec::new(),
-            radii: Vec::new(),
+            starts: vec![0; columns * rows * layers + 1],
+            blocks: Vec::new(),
             indices: Vec::new(),
             large: Vec::new(),
             least: least_radius(low, high, side),
+            rounding: rounding(low, high, side),
             level: Level::new(),
         };
-        grid.list(spheres, reach);
+        grid.fill(spheres, reach);
         (!grid.is_crowded()).then_some(grid)
     }
 
@@ -134,68 +110,29 @@ impl LightGrid {
         ((-height / self.height) as usize).min(self.layers - 1)
     }
 
-    /// Lists the spheres up to a radius cell by cell, and the others one by one.
-    fn list(&mut self, spheres: &[Sphere], reach: f64) {
-        // How many there are, one layer further on; then where each layer begins, by counting up.
-        let mut listed = Vec::with_capacity(spheres.len());
-        for (index, sphere) in spheres.iter().enumerate() {
-            if sphere.radius() > reach {
-                self.large.push(index as u32);
-                listed.push(NOWHERE);
-                continue;
-            }
-            let place = self.place(sphere.center());
-            let (column, row) = (
-                (place.x / self.side) as usize,
-                (place.y / self.side) as usize,
-            );
-            let cell = row * self.columns + column;
-            let layer = cell * self.layers + self.layer(place.z);
-            listed.push(layer as u32);
-            self.starts[layer + 2] += 1;
-        }
-        let mut sum = 0;
-        for start in &mut self.starts {
-            sum += *start;
-            *start = sum;
-        }
-        self.indices.resize(sum as usize, 0);
-        for (index, listed) in listed.iter_mut().enumerate() {
-            if *listed != NOWHERE {
-                let next = &mut self.starts[*listed as usize + 1];
-                self.indices[*next as usize] = index as u32;
-                *listed = *next;
-                *next += 1;
-            }
-        }
-        self.starts.pop();
-        // Number by number: what is written here and there fits into nearer memory.
-        let numbers = |axis: usize| {
-            // Behind the last are others, so that eight may be read from any one on.
-            let mut numbers = vec![0.0; self.indices.len() + LANES];
-            for (sphere, &listed) in spheres.iter().zip(&listed) {
-                if listed != NOWHERE {
-                    numbers[listed as usize] = self.number(sphere, axis) as f32;
-                }
-            }
-            numbers
+    /// The first and the last column and row of the cells within a distance of a place.
+    #[inline(always)]
+    fn cells(&self, at: DVec3, reach: f64) -> [(usize, usize); 2] {
+        let rows = self.starts.len() / (self.columns * self.layers);
+        let along = |place: f64, count: usize| {
+            let cell = |place: f64| ((place / self.side).max(0.0) as usize).min(count - 1);
+            (cell(place - reach), cell(place + reach))
         };
-        let across = || [numbers(0), numbers(1)];
-        (self.places, [self.heights, self.radii]) =
-            rayon::join(across, || [numbers(2), numbers(3)]);
+        [along(at.x, self.columns), along(at.y, rows)]
     }
 
-    /// The place in its cell of the center of a sphere along one of the axes across the light, its height, or its radius.
-    fn number(&self, sphere: &Sphere, axis: usize) -> f64 {
-        let Some(along) = self.axes.get(axis) else {
-            return sphere.radius();
+    /// The places of a cell's spheres down to a layer, and the cell's corner.
+    #[inline(always)]
+    fn cell(&self, (column, row): (usize, usize), last: usize) -> (Places, DVec3) {
+        let first = (row * self.columns + column) * self.layers;
+        let places = Places {
+            start: self.starts[first] as usize,
+            end: self.starts[first + last + 1] as usize,
         };
-        let place = along.dot(sphere.center()) - self.low[axis];
-        if axis == 2 {
-            place
-        } else {
-            place - (place / self.side).floor() * self.side
-        }
+        (
+            places,
+            DVec3::new(column as f64, row as f64, 0.0) * self.side,
+        )
     }
 
     /// True if it takes too long to go through the cells.
@@ -207,94 +144,30 @@ impl LightGrid {
         let squares = cells.map(|(start, end)| u64::from(end[0] - start[0]));
         squares.map(|count| count * count).sum::<u64>() > MOST_IN_CELL * self.indices.len() as u64
     }
+}
 
-    /// Finds the spheres that lie higher than one of them and may darken it, as far as single precision tells; false if that
-    /// is too little, or they lie in too many cells.
-    pub(crate) fn find(&self, spheres: &[Sphere], asked: &Asked, memory: &mut Found) -> bool {
-        if asked.radius < self.least {
-            return false;
-        }
-        let at = self.place(asked.center);
-        let reach = asked.radius + 0.5 * self.side;
-        let rows = self.starts.len() / (self.columns * self.layers);
-        let along = |place: f64, count: usize| {
-            let cell = |place: f64| ((place / self.side).max(0.0) as usize).min(count - 1);
-            (cell(place - reach), cell(place + reach))
-        };
-        let (columns, rows) = (along(at.x, self.columns), along(at.y, rows));
-        if (columns.1 - columns.0 + 1) * (rows.1 - rows.0 + 1) > MOST_CELLS {
-            return false;
-        }
-        for row in rows.0..=rows.1 {
-            for column in columns.0..=columns.1 {
-                self.find_in((column, row), (at, asked), memory);
-            }
-        }
-        for &index in &self.large {
-            let sphere = &spheres[index as usize];
-            let way = self.place(sphere.center()) - at;
-            let is_near = way.truncate().length() < sphere.radius() + asked.radius;
-            if is_near && way.z > 0.0 && index != asked.index {
-                memory.list.push(Higher {
-                    way,
-                    radius: sphere.radius(),
-                    index,
-                });
-            }
-        }
-        true
-    }
+/// Places in blocks, one after the other.
+#[derive(Clone, Copy)]
+struct Places {
+    start: usize,
+    end: usize,
+}
 
-    /// Finds those of a cell.
-    fn find_in(
-        &self,
-        (column, row): (usize, usize),
-        (at, asked): (DVec3, &Asked),
-        memory: &mut Found,
-    ) {
-        let first = (row * self.columns + column) * self.layers;
-        let start = self.starts[first] as usize;
-        let end = self.starts[first + self.layer(at.z) + 1] as usize;
-        let at = at - DVec3::new(column as f64, row as f64, 0.0) * self.side;
-        let numbers = (at.as_vec3(), asked.radius as f32);
-        let eights = (end - start).div_ceil(LANES);
-        if memory.masks.len() < eights {
-            memory.masks.resize(eights, 0);
-        }
-        let masks = &mut memory.masks[..eights];
-        dispatch!(self.level, simd => self.near(simd, start, numbers, masks));
-        for (number, &mask) in masks.iter().enumerate() {
-            let first = start + number * LANES;
-            let there = (1_u64 << (end - first).min(LANES)) - 1;
-            for place in set_bits(u64::from(mask) & there) {
-                let place = first + place;
-                let index = self.indices[place];
-                if index != asked.index {
-                    let [x, y] = &self.places;
-                    let way = Vec3::new(x[place], y[place], self.heights[place]);
-                    memory.list.push(Higher {
-                        way: way.as_dvec3() - at,
-                        radius: self.radii[place].into(),
-                        index,
-                    });
-                }
-            }
-        }
-    }
-
-    /// For each eight spheres from a place on whether they lie higher and near the asked one, bit by bit.
+impl Places {
+    /// The blocks in which they lie.
     #[inline(always)]
-    fn near<S: Simd>(&self, simd: S, start: usize, (at, radius): (Vec3, f32), masks: &mut [u8]) {
-        for (number, mask) in masks.iter_mut().enumerate() {
-            let first = start + number * LANES;
-            let aside = f32x8::read(simd, &self.places[0], first) - at.x;
-            let away = f32x8::read(simd, &self.places[1], first) - at.y;
-            let both = f32x8::read(simd, &self.radii, first) + radius;
-            let is_near = (aside * aside + away * away).simd_lt(both * both);
-            let heights = f32x8::read(simd, &self.heights, first);
-            let is_higher = heights.simd_gt(f32x8::splat(simd, at.z));
-            *mask = (is_higher & is_near).to_bitmask() as u8;
-        }
+    fn blocks(self) -> std::ops::Range<usize> {
+        self.start / LANES..self.end.div_ceil(LANES)
+    }
+
+    /// Those that lie in a block, as bits.
+    #[inline(always)]
+    fn of_block(self, block: usize) -> u64 {
+        const ALL: u64 = (1 << LANES) - 1;
+        let first = block * LANES;
+        let before = self.start.saturating_sub(first);
+        let behind = (first + LANES).saturating_sub(self.end);
+        ALL >> behind & ALL << before
     }
 }
 
@@ -311,6 +184,13 @@ fn least_radius(low: DVec3, high: DVec3, side: f64) -> f64 {
         of_place + single * (high.z - low.z),
     );
     (across / ACROSS).max(along / ALONG)
+}
+
+/// More than rounding moves places in cells of this side by, heights, and radii, of spheres between these places: of the
+/// spheres and of a point among them.
+fn rounding(low: DVec3, high: DVec3, side: f64) -> f64 {
+    let of_single = 4.0 * f64::from(f32::EPSILON) * (2.0 * side + high.z - low.z);
+    2.0 * slack(low.abs().max(high.abs()) + side, side) + of_single
 }
 
 /// The places of a point along axes.

@@ -296,14 +296,14 @@ impl<'world> Occluders<'world> {
         self.spheres
     }
 
-    /// The axes of the plane.
-    pub(super) fn axes(&self) -> (DVec3, DVec3) {
-        (self.right, self.up)
-    }
-
     /// The instructions that the processor has.
     pub(super) fn level(&self) -> Level {
         self.level
+    }
+
+    /// The axes of the plane.
+    pub(super) fn axes(&self) -> (DVec3, DVec3) {
+        (self.right, self.up)
     }
 
     /// The unit direction toward the light.

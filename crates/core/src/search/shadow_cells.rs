@@ -3,11 +3,9 @@
 //! Points that lie together share what may darken them. Cells are cubes along the light, in layers whose sides
 //! are powers of two. From a point's cell, as large as some tiles are where it lies, the way to the light
 //! leads through cells that become larger as soon as they fit, until nothing is above or the point is found
-//! to be in the dark. What ends in a cell is looked up when the first point comes along.
+//! to be in the dark. What ends in a cell is looked up when the first point comes along: where few ask, that takes less time than
+//! to list all spheres in a [`LightGrid`](super::light_grid::LightGrid), which answers where there is one.
 
-mod above;
-
-use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
 
 use super::disc_grid::{DiscGrid, HighDisc, PointBelow, Square};
@@ -139,10 +137,8 @@ pub(crate) struct SurfacePoint {
 
 impl ShadowCells {
     /// The answer of [`Visibility::is_blocked`] for a point of a sphere and a light.
-    #[inline(always)]
-    pub(crate) fn is_blocked<S: Simd>(
+    pub(crate) fn is_blocked(
         &mut self,
-        simd: S,
         visibility: &Visibility<'_>,
         light: usize,
         asked: &SurfacePoint,
@@ -163,10 +159,16 @@ impl ShadowCells {
             around,
             is_above_own: center < height - around,
         };
-        let hides = |index: usize| visibility.hides(index, &to_light, asked.error, asked.sphere);
+        let mut hides =
+            |index: usize| visibility.hides(index, &to_light, asked.error, asked.sphere);
+        if let Some(grid) = visibility.light(light).grid()
+            && let Some(is_blocked) = grid.any(&point, &mut hides)
+        {
+            return is_blocked;
+        }
         let first = key(occluders.name(), asked.side, &point);
         if let Some(key) = first.filter(|_| visibility.is_moderate())
-            && let Some(is_blocked) = self.walk(simd, occluders, key, &point, hides)
+            && let Some(is_blocked) = self.walk(occluders, key, &point, &mut hides)
         {
             return is_blocked;
         }
@@ -175,14 +177,12 @@ impl ShadowCells {
 
     /// Says whether something holds for any sphere that may keep the light from a point, from its cell on;
     /// `None` if too much is there.
-    #[inline(always)]
-    fn walk<S: Simd>(
+    fn walk(
         &mut self,
-        simd: S,
         occluders: &Occluders<'_>,
         mut key: Key,
         point: &PointBelow,
-        mut holds: impl FnMut(usize) -> bool,
+        holds: &mut dyn FnMut(usize) -> bool,
     ) -> Option<bool> {
         let (least, highest) = (key.exponent - MOST_HALVINGS, occluders.highest());
         // Whether larger cells are to be tried, and how many were passed that are as large as this one.
@@ -203,7 +203,7 @@ impl ShadowCells {
                 continue;
             }
             let is_sparse = cell.count <= FEW_DISCS;
-            if cell.grid.any(simd, point, &mut holds) {
+            if cell.grid.any(occluders.level(), point, holds) {
                 return Some(true);
             }
             key.place[2] += 1;

@@ -154,7 +154,7 @@ impl<'world> Visibility<'world> {
     }
 
     /// The visibility to use for a view: without nested spheres, if it sees nothing of them.
-    pub(super) fn of_view(&self, view: &View) -> &Self {
+    pub(crate) fn of_view(&self, view: &View) -> &Self {
         match &self.outer {
             Some(outer) if outer.nested.are_hidden_from(view) => &outer.visibility,
             _ => self,
@@ -308,6 +308,20 @@ impl<'world> Visibility<'world> {
         match &self.occluders[index] {
             Occlusion::Discs(discs) => discs,
             Occlusion::Point(_) => unreachable!("the discs of a point light"),
+        }
+    }
+
+    /// Makes ready for shadow rays toward directional lights, from so many rows of samples, one for each pixel.
+    pub(crate) fn expect_rows(&self, rows: u64) {
+        let casting = if self.is_moderate {
+            &self.occluders[..]
+        } else {
+            &[]
+        };
+        for occlusion in casting {
+            if let Occlusion::Discs(discs) = occlusion {
+                discs.expect(rows);
+            }
         }
     }
 

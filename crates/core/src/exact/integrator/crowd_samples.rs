@@ -38,7 +38,12 @@ impl<'scene> CrowdSamples<'scene> {
         alpha: bool,
     ) -> Option<Self> {
         let raster = Raster::new(world, view, index, alpha)?;
-        (tolerance >= LEAST_TOLERANCE * raster.contrast()).then(|| Self {
+        if tolerance < LEAST_TOLERANCE * raster.contrast() {
+            return None;
+        }
+        // It asks for all spheres that are seen.
+        index.visibility.expect_rows(world.spheres().len() as u64);
+        Some(Self {
             raster,
             view: *view,
             tolerance,

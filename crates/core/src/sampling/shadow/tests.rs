@@ -8,6 +8,7 @@ use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::world::World;
 use crate::numeric::lanes::f64x8;
+use crate::search::light_grid::Found;
 use crate::search::tests::Random;
 
 const SCALE: Scale = Scale {
@@ -21,6 +22,7 @@ const SCALE: Scale = Scale {
 /// whole sphere.
 fn agrees(world: &World, points: [DVec3; 8], error: f64, known: &mut usize) -> u64 {
     let visibility = Visibility::new(world);
+    visibility.expect_rows(u64::MAX);
     let Light::Directional(light) = &world.lights[0] else {
         panic!("a directional light");
     };
@@ -46,14 +48,21 @@ fn agrees(world: &World, points: [DVec3; 8], error: f64, known: &mut usize) -> u
             right: vectors.dot_one(right),
             up: vectors.dot_one(up),
         };
-        let mut cells = ShadowCells::default();
         let mut above = Vec::new();
-        // Below cells that are smaller than the sphere nothing is known about it.
-        let side = world.spheres()[0].radius();
-        if cells.discs_before(&visibility, (0, 0, side), &mut above) {
+        if let Some(grid) = visibility.light(0).grid()
+            && grid.discs_before(world.spheres(), 0, &mut Found::default(), &mut above)
+        {
             *known += 1;
             let found = darkened(simd, &visibility, (&lit, light), &above, 0xff);
             assert_eq!(found, expected, "above the whole sphere");
+        }
+        let mut cells = ShadowCells::default();
+        for (lane, &point) in points.iter().enumerate() {
+            let center = world.spheres()[0].center();
+            let (sphere, side) = (0, 1.0);
+            let asked = SurfacePoint { point, error, sphere, center, side };
+            let is_dark = cells.is_blocked(&visibility, 0, &asked);
+            assert_eq!(is_dark, expected >> lane & 1 == 1, "alone");
         }
         let mut shadows = Shadows::new(&visibility, DVec3::ZERO, SCALE, &mut cells);
         let discs = match visibility.light(0).of_sphere(0) {
@@ -102,6 +111,11 @@ fn occluders_that_nearly_touch_the_light() {
             // Small ones leave some points in the light.
             let radius = if number < 8 { radius } else { 0.1 * radius };
             world.add_sphere(Sphere::new(place, radius).unwrap(), white);
+        }
+        // Cells need a crowd.
+        for _ in 0..300 {
+            let aside = random.point().cross(toward).normalize() * 20.0;
+            world.add_sphere(Sphere::new(center + aside, 0.3).unwrap(), white);
         }
         let error = [0.0, 1e-15, 1e-12][step % 3];
         dark += agrees(&world, points, error, &mut known).count_ones();
