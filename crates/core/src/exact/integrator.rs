@@ -169,6 +169,13 @@ impl<'scene> Exact<'scene> {
         }
     }
 
+    /// Makes ready for a whole picture.
+    pub(crate) fn prepare(&self) {
+        if let Some(crowd) = &self.crowd {
+            crowd.prepare();
+        }
+    }
+
     /// The same for one of the moments of a panel of time of a level, which many others share a pixel's budget with.
     pub(crate) fn at_a_moment(mut self, level: u32) -> Self {
         for context in &mut self.groups {

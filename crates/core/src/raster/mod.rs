@@ -128,6 +128,12 @@ impl<'scene> Raster<'scene> {
             && lights.iter().all(is_sun)
     }
 
+    /// Makes ready for many tiles: most spheres that are seen are asked about.
+    pub(crate) fn prepare(&self) {
+        let spheres = self.world.spheres().len();
+        self.index.visibility.expect_rows(spheres as u64);
+    }
+
     /// The largest difference between what two rays may see.
     pub(crate) fn contrast(&self) -> f64 {
         self.contrast * self.unit

@@ -94,6 +94,7 @@ impl<'scene> Integrator<'scene> {
         match method {
             Method::Tolerance(tolerance) => {
                 let exact = Exact::of_all_light(world, view, &index, tolerance, alpha);
+                exact.prepare();
                 Self::Exact(Box::new(exact))
             }
             Method::Samples(samples) => {

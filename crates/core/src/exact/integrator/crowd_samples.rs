@@ -38,17 +38,24 @@ impl<'scene> CrowdSamples<'scene> {
         alpha: bool,
     ) -> Option<Self> {
         let raster = Raster::new(world, view, index, alpha)?;
-        if tolerance < LEAST_TOLERANCE * raster.contrast() {
-            return None;
-        }
-        // It asks for all spheres that are seen.
-        index.visibility.expect_rows(world.spheres().len() as u64);
-        Some(Self {
+        (tolerance >= LEAST_TOLERANCE * raster.contrast()).then(|| Self {
             raster,
             view: *view,
             tolerance,
             side: Arc::default(),
         })
+    }
+
+    /// Makes ready for all tiles of the picture.
+    pub(super) fn prepare(&self) {
+        if self.side().is_some() {
+            self.raster.prepare();
+        }
+    }
+
+    /// The samples on a side of a pixel, if they are worth it.
+    fn side(&self) -> Option<u32> {
+        *self.side.get_or_init(|| self.side_that_pays())
     }
 
     /// The pixels of a tile that meet the tolerance, in the order of [`Tile::pixels`], or none of them; returns the
@@ -60,7 +67,7 @@ impl<'scene> CrowdSamples<'scene> {
         found: &mut Vec<Option<Pixel>>,
     ) -> u64 {
         found.clear();
-        let Some(side) = *self.side.get_or_init(|| self.side_that_pays()) else {
+        let Some(side) = self.side() else {
             return 0;
         };
         let around = Tile {
