@@ -6,6 +6,7 @@ use super::*;
 use crate::model::camera::{Camera, Lens};
 use crate::model::view::View;
 use crate::numeric::angle::Angle;
+use crate::picture::image::Channels;
 use crate::raster::plane::Plane;
 
 const TILE: Tile = Tile {
