@@ -19,12 +19,12 @@ fn spheres(count: usize, sides: DVec3, radius: impl Fn(f64) -> f64) -> Vec<Spher
     (0..count).map(|_| sphere()).collect()
 }
 
-/// Asks for every sphere; returns how many were found.
-fn check(spheres: &[Sphere], grid: &LightGrid) -> usize {
+/// Asks for every so many spheres; returns how many were found.
+fn check(spheres: &[Sphere], grid: &LightGrid, step: usize) -> usize {
     let axes = axes();
     let mut memory = Found::default();
     let mut sum = 0;
-    for (index, sphere) in spheres.iter().enumerate() {
+    for (index, sphere) in spheres.iter().enumerate().step_by(step) {
         let asked = Asked {
             center: sphere.center(),
             radius: sphere.radius(),
@@ -80,12 +80,32 @@ fn all_that_lie_higher_are_found() {
     ];
     for spheres in &worlds {
         let grid = LightGrid::new(spheres, axes()).expect("a crowd");
-        let sum = check(spheres, &grid);
+        let sum = check(spheres, &grid, 1);
         assert!(sum > 100, "{sum}");
     }
     let few_large = LightGrid::new(&worlds[3], axes()).expect("a crowd");
     assert!((5..=MOST_LARGE).contains(&few_large.large.len()));
     assert!(few_large.layers > 1 || few_large.columns > 5);
+}
+
+/// So many that threads share them; the indices of all are listed once.
+#[test]
+fn many_are_listed_by_several_threads() {
+    let spheres = spheres(70_000, DVec3::splat(4.0), |random| 0.01 + 0.02 * random);
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(3)
+        .build()
+        .unwrap();
+    let grid = threads.install(|| LightGrid::new(&spheres, axes()).expect("a crowd"));
+    let sum = check(&spheres, &grid, 700);
+    assert!(sum > 100, "{sum}");
+    let places = grid.indices.iter().enumerate();
+    let heights = |place: usize| grid.blocks[place / LANES][2][place % LANES];
+    let filled = places.filter(|(place, _)| heights(*place).is_finite());
+    let mut indices: Vec<u32> = filled.map(|(_, index)| *index).collect();
+    indices.extend(&grid.large);
+    indices.sort_unstable();
+    assert_eq!(indices, (0..70_000).collect::<Vec<u32>>());
 }
 
 /// Columns of spheres above each other, one at the place of another, and one that is alone.
@@ -102,7 +122,7 @@ fn spheres_in_rows_are_found() {
     spheres.push(spheres[100]);
     spheres.push(Sphere::new(right * 100.0, 0.1).unwrap());
     let grid = LightGrid::new(&spheres, axes()).expect("a crowd");
-    let sum = check(&spheres, &grid);
+    let sum = check(&spheres, &grid, 1);
     assert!((20 * 30 * 29 / 2..20 * 30 * 31 / 2).contains(&sum), "{sum}");
 }
 
