@@ -188,6 +188,12 @@ fn least_radius(low: DVec3, high: DVec3, side: f64) -> f64 {
 
 /// More than rounding moves places in cells of this side by, heights, and radii, of spheres between these places: of the
 /// spheres and of a point among them.
+///
+/// Single precision rounds by half of its epsilon e, relatively. A place in a cell is off by e/2 sides, that of a point in a
+/// cell beside it and their difference by e sides each, a radius by e/4 sides, a height by e/2 depths, and the sum of a height
+/// and a radius by e/2 of both: less than 4 e sides and 2 e depths, and it is twice as much. A point farther away
+/// is off by more, but by far less than what it is beyond reach. For double precision see [`slack`]: of places along the
+/// axes, whose sum is at least the distance from the origin, it is taken twice, as √3 would do.
 fn rounding(low: DVec3, high: DVec3, side: f64) -> f64 {
     let of_single = 4.0 * f64::from(f32::EPSILON) * (2.0 * side + high.z - low.z);
     2.0 * slack(low.abs().max(high.abs()) + side, side) + of_single
