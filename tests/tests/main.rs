@@ -2,6 +2,7 @@
 //! their messages.
 
 mod anchored_roughness;
+mod architecture;
 mod averages;
 mod budget;
 mod claims;

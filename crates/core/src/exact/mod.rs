@@ -1,25 +1,4 @@
-//! The integral over a pixel, to a tolerance: a ladder of ways, from the cheapest.
-//!
-//! Eight pixels of a row climb the first rungs together, and a pixel with edges climbs alone. A rung
-//! answers, or it gives up and says why ([`GiveUp`]); then the next one begins.
-//!
-//! | rung | answer | worth | leaves to the next rung |
-//! |---|---|---|---|
-//! | a crowd, to loose tolerances: [`integrator`], `raster` | a regular grid of samples in each pixel of a tile | estimate | what the raster does not know, claims above the tolerance |
-//! | no sphere: [`classify`] | the background | bound | pixels that may see a sphere |
-//! | one sphere without light: [`interior`] | the ambient light | bound | pixels that a light reaches |
-//! | one sphere: [`interior`] | rules with 1, 5, 9 or 17 samples, of bumps in parts | bound on smooth spheres, as a rule; else estimate | edges, and light that bends too much |
-//! | one plain sphere under its only light: [`interior`], [`edged`] | its mean normal times the direction of light, or a ramp where the terminator is in the pixel | bound; along a contour estimate | other edges, claims above the tolerance |
-//! | bumps far smaller than the pixel: [`interior`] | random samples in strata | estimate | nothing |
-//! | boxes with straight edges, to loose tolerances: [`edged`] | shares of half-planes | estimate | claims above the tolerance |
-//! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, claims above the tolerance |
-//! | parts of the pixel: [`edged`] | quarters, and theirs, until they cost too much | estimate | claims above the tolerance, pixels of which less than samples see is known |
-//! | random samples in strata of the pixel: [`integrator`] | their mean | estimate | pixels of which samples meet no tolerance |
-//! | 8 × 8 samples: [`integrator`] | the mean, off by the whole contrast | bound | nothing |
-//!
-//! Pixels under point lights begin at the rung along edges: those above know directional lights alone.
-//!
-//! [`budget`] limits what a pixel may cost. A pixel that ends over its tolerance says so.
+//! The integral over a pixel, to a tolerance: a ladder of ways, from the cheapest ([`ladder`]).
 
 pub(crate) mod areas;
 pub(crate) mod budget;
@@ -31,6 +10,7 @@ mod crowd_blocks;
 mod edged;
 pub(crate) mod integrator;
 mod interior;
+mod ladder;
 #[cfg(test)]
 mod only_pixel;
 mod parallel_begin;
@@ -47,11 +27,10 @@ use self::classify::occluder_cache::OccluderCache;
 use self::classify::seen::SeenRow;
 use self::context::Context;
 use self::crowd::{CrowdWork, FEWEST, Looks};
-use self::edged::cell::{EdgedPixel, Workspace};
+use self::edged::cell::Workspace;
 use self::interior::fill::fill;
 use self::interior::filled::FilledRow;
 use self::interior::reached::Extents;
-use self::part::GiveUp;
 use crate::edges::cell::Ball;
 use crate::numeric::bits::set_bits;
 use crate::picture::pixel::{Pixel, Work};
@@ -268,7 +247,7 @@ impl LitTile {
         edged.left_by_tile = self.crowds.of_pixel();
         edged.is_crowd = spheres.len() > if self.is_dense { 1 } else { FEWEST };
         let (asked, units) = (edged.work.candidate_tests, self.cache.units);
-        match edged_pixel(simd, context, pixel, spheres, &mut self.cache, edged) {
+        match ladder::climb(simd, context, pixel, spheres, &mut self.cache, edged) {
             Ok(known) => self.pixels[place + lane] = known,
             Err(_) => self.unknown |= 1 << (place + lane),
         }
@@ -320,40 +299,4 @@ impl LitTile {
             self.climb(simd, context, (row, place), (lane, &spheres), edged);
         }
     }
-}
-
-/// The rungs for a pixel with edges.
-fn edged_pixel<S: Simd>(
-    simd: S,
-    context: &Context<'_>,
-    pixel: Tile,
-    spheres: &[(usize, Ball)],
-    cache: &mut OccluderCache,
-    workspace: &mut Workspace,
-) -> Result<Pixel, GiveUp> {
-    let edged = EdgedPixel {
-        context,
-        cell: context.cell(pixel),
-        key: context.key(pixel, 0),
-        spheres,
-    };
-    // Of a crowd all are asked before anything is known.
-    let least = if workspace.is_crowd {
-        spheres.len() as u64
-    } else {
-        1
-    };
-    let is_exhausted = workspace.left_by_tile < least && spheres.len() > 1 || cache.is_exhausted();
-    if spheres.len() > MOST_SPHERES || is_exhausted {
-        workspace.leave_crowd(&edged);
-        return Err(GiveUp::Unknown);
-    }
-    // Along the edges of the whole pixel.
-    let whole = workspace.along_edges(simd, &edged, cache);
-    // Highlights are narrow, or the claim is too large: parts of the pixel.
-    let part = match whole {
-        Ok(part) => part,
-        Err(why) => workspace.by_parts(simd, &edged, why, cache)?,
-    };
-    Ok(context.pixel_of(&part))
 }

@@ -103,13 +103,13 @@ impl Workspace {
         self.budget.spend(CellWork { samples: 0, tests });
     }
 
-    /// The average along the edges of the whole pixel.
-    pub(crate) fn along_edges<S: Simd>(
+    /// Begins with a pixel: finds out what it sees, and what it may cost.
+    pub(crate) fn begin<S: Simd>(
         &mut self,
         simd: S,
         pixel: &EdgedPixel<'_, '_>,
         cache: &mut OccluderCache,
-    ) -> Result<Part, GiveUp> {
+    ) {
         let Context {
             scene,
             allowance,
@@ -125,22 +125,27 @@ impl Workspace {
         self.budget = Budget::new(*allowance, contents.grains_across(scene, &cell), *tolerance)
             .within(self.left_by_tile, self.is_crowd);
         self.is_random = false;
-        if self.budget.is_nothing() {
-            return Err(GiveUp::Unknown);
-        }
-        let is_fine = self
-            .contents
-            .has_finer_bumps(scene, &cell, MOST_CELLS_OF_BOXES);
-        // Boxes know no point lights.
-        let is_known = !self.contents.is_mixed && !self.contents.is_crowded;
-        let may_be_boxes = !is_fine && is_known && !scene.has_near_lights;
-        if may_be_boxes && let Some(part) = self.by_boxes(simd, pixel, &cell) {
-            return Ok(part);
-        }
-        if let Some(part) = self.by_mean_normals(simd, pixel, &cell) {
-            return Ok(part);
-        }
-        let mut part = self.part(simd, pixel, &cell, (0, cache))?;
+    }
+
+    /// Whether boxes know what a pixel sees: neither point lights nor fine bumps.
+    pub(crate) fn knows_boxes(&self, pixel: &EdgedPixel<'_, '_>) -> bool {
+        let scene = &pixel.context.scene;
+        let contents = &self.contents;
+        !contents.is_mixed
+            && !contents.is_crowded
+            && !scene.has_near_lights
+            && !contents.has_finer_bumps(scene, &pixel.whole(), MOST_CELLS_OF_BOXES)
+    }
+
+    /// The average along the edges of the whole pixel.
+    pub(crate) fn along_edges<S: Simd>(
+        &mut self,
+        simd: S,
+        pixel: &EdgedPixel<'_, '_>,
+        cache: &mut OccluderCache,
+        _: GiveUp,
+    ) -> Result<Part, GiveUp> {
+        let mut part = self.part(simd, pixel, &pixel.whole(), (0, cache))?;
         part.error += pixel.moved(self.contrast);
         if part.error <= pixel.context.tolerance || self.is_random {
             Ok(part)
@@ -150,12 +155,13 @@ impl Workspace {
     }
 
     /// The average of the whole pixel by boxes, if they meet the tolerance.
-    fn by_boxes<S: Simd>(
+    pub(crate) fn by_boxes<S: Simd>(
         &mut self,
         simd: S,
         pixel: &EdgedPixel<'_, '_>,
-        cell: &Cell,
-    ) -> Option<Part> {
+        _: &mut OccluderCache,
+        _: GiveUp,
+    ) -> Result<Part, GiveUp> {
         let Context {
             scene,
             tolerance,
@@ -169,20 +175,21 @@ impl Workspace {
             background: *background,
             has_alpha: *has_alpha,
         };
-        let found = self
-            .boxes
-            .integrate(simd, scene, cell, &self.contents, &goal, &mut self.noise);
+        let cell = pixel.whole();
+        let found =
+            self.boxes
+                .integrate(simd, scene, &cell, &self.contents, &goal, &mut self.noise);
         let work = std::mem::take(&mut self.boxes.work);
         self.work.samples += work.samples;
         self.budget.spend(work);
-        let mut part = found?;
+        let mut part = found.ok_or(GiveUp::Unknown)?;
         part.error += known;
         let has_curves = !self.contents.conics.is_empty() || !self.contents.occluders.is_empty();
         if has_curves {
             let least = LEAST_OF_BOXES * self.contrast;
             part.error = part.error.max(least.min(*tolerance));
         }
-        Some(part)
+        Ok(part)
     }
 
     /// The average over a part of a pixel, at a depth, whose contents have been seen.

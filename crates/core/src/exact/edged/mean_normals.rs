@@ -6,31 +6,35 @@ use fearless_simd::Simd;
 use super::boundary::Goal;
 use super::cell::{EdgedPixel, FINER, Workspace};
 use crate::edges::cell::Cell;
+use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::reach::Reach;
-use crate::exact::part::Part;
+use crate::exact::part::{GiveUp, Part};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
 
 impl Workspace {
+    /// Whether mean normals know what a pixel sees: nothing but the contour of a sphere, under the only light.
+    pub(crate) fn knows_mean_normals(&self, pixel: &EdgedPixel<'_, '_>) -> bool {
+        pixel.context.normals.is_some() && self.contents.is_contour_alone()
+    }
+
     /// The average of a pixel that sees nothing but the contour of a plain sphere, under its only light, which reaches
     /// all or nothing of what is seen; where it meets the tolerance.
     ///
     /// # Accuracy
     /// An estimate: that of the integral in any direction, and of the area.
-    pub(super) fn by_mean_normals<S: Simd>(
+    pub(crate) fn by_mean_normals<S: Simd>(
         &mut self,
         simd: S,
         pixel: &EdgedPixel<'_, '_>,
-        cell: &Cell,
-    ) -> Option<Part> {
+        _: &mut OccluderCache,
+        _: GiveUp,
+    ) -> Result<Part, GiveUp> {
         let context = pixel.context;
         let contents = &self.contents;
-        if context.normals.is_none() || !contents.is_contour_alone() {
-            return None;
-        }
         let finish = Finish::new(&context.scene, contents.active[0].sphere, contents.pixel);
-        let (normals, light) = context.normals_on(&finish)?;
+        let (normals, light) = context.normals_on(&finish).ok_or(GiveUp::Unknown)?;
         let reflectance = &finish.reflectance;
         let ambient = reflectance.albedo * context.scene.ambient;
         let [brightest, _] = reflectance.brightest(light.intensity);
@@ -46,12 +50,12 @@ impl Workspace {
         let found = match known {
             Some((_, _, found)) => *found,
             None => {
-                let found = self.integral_of_normals(simd, normals, cell, tolerance);
+                let found = self.integral_of_normals(simd, normals, &pixel.whole(), tolerance);
                 self.normals.outlined.push((pixel.key, tolerance, found));
                 found
             }
         };
-        let found = found?;
+        let found = found.ok_or(GiveUp::Unknown)?;
         let mut value = context.background * (1.0 - found.covered) + ambient * found.covered;
         if is_lit {
             let color = reflectance.albedo * light.intensity;
@@ -63,7 +67,11 @@ impl Workspace {
             error: found.error * contrast + pixel.moved(self.contrast),
             rounding: found.rounding * contrast,
         };
-        (part.error <= context.tolerance).then_some(part)
+        if part.error <= context.tolerance {
+            Ok(part)
+        } else {
+            Err(GiveUp::Unknown)
+        }
     }
 
     /// The integral of the normals over a cell that sees one sphere, and its area; if its error is within the

@@ -31,8 +31,8 @@ impl Workspace {
         &mut self,
         simd: S,
         pixel: &EdgedPixel<'_, '_>,
-        why: GiveUp,
         cache: &mut OccluderCache,
+        why: GiveUp,
     ) -> Result<Part, GiveUp> {
         let context = pixel.context;
         let moved = pixel.moved(self.contrast);
